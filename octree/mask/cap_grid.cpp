@@ -31,7 +31,7 @@ constexpr std::uint64_t kMinLooks = 1 << 14, kMaxLooks = std::uint64_t{1} << 24;
 constexpr std::uint64_t kLooksPerRecord = 1 << 11, kLooksPerUnit = 32;
 }  // namespace
 
-/// Bounds the share of many caps over cells by their areas, the largest cells first. A cap of area
+/// Bounds the share of caps over cells by their areas, the largest cells first. A cap of area
 /// a at a distance of at least d has a share of at most a / (4 pi d^2).
 class CapGrid::AreaFiller {
  public:
@@ -128,8 +128,8 @@ class CapGrid::AreaFiller {
   std::array<std::uint32_t, (kFanOut - 1) * kMaxHeight + 2 * kFanOut> links_;
 };
 
-/// Bounds the share of few caps over cells: by that at the cell's centre, and by how much the rim
-/// lets it vary.
+/// Bounds the share of few caps over the cells that are left: by that at the cell's centre, and by
+/// how much the rim lets it vary.
 class CapGrid::RimFiller {
  public:
   RimFiller(CapGrid& grid, const TreeInfo& caps, const CapRim& rim, std::uint64_t looks,
@@ -204,15 +204,13 @@ void CapGrid::fill(const TreeInfo& caps, const TreeInfo& surface, const PageRead
   clear_ = reinterpret_cast<std::uint64_t*>(memory.data());
   std::fill_n(clear_, kBytes / sizeof *clear_, 0);
   const std::uint64_t records = std::min(surface.record_count, kMaxVisits);
+  const std::uint64_t visits = std::clamp(kVisitsPerRecord * records, kMinVisits, kMaxVisits);
+  AreaFiller(*this, caps, visits, pages).run();
   CapRim rim;
   rim.read(caps, pages);
-  if (rim.is_known()) {
-    const std::uint64_t looks = std::clamp(kLooksPerRecord * records, kMinLooks, kMaxLooks);
-    RimFiller(*this, caps, rim, looks, pages).run();
-  } else {
-    const std::uint64_t visits = std::clamp(kVisitsPerRecord * records, kMinVisits, kMaxVisits);
-    AreaFiller(*this, caps, visits, pages).run();
-  }
+  if (!rim.is_known()) return;
+  const std::uint64_t looks = std::clamp(kLooksPerRecord * records, kMinLooks, kMaxLooks);
+  RimFiller(*this, caps, rim, looks, pages).run();
 }
 
 void CapGrid::find_box(unsigned level, std::uint64_t index, Point& lower, Point& upper) const {
