@@ -70,7 +70,7 @@ endfunction()
 
 # Tests of a program whose names fit a filter of gtest, with this label.
 function(planetree_discover_tests program filter label)
-  set(properties LABELS ${label} TIMEOUT 120)
+  set(properties LABELS ${label} TIMEOUT 240)
   if(PLANETREE_DATA)
     list(APPEND properties ENVIRONMENT PLANETREE_DATA=${PLANETREE_DATA})
   endif()

@@ -27,8 +27,11 @@ constexpr std::uint64_t kVisitsPerRecord = 32;
 constexpr std::uint64_t kMaxBrought = 1 << 12;
 /// The same for caps and edges of a rim that are looked at. A unit of work counts for
 /// kLooksPerUnit.
-constexpr std::uint64_t kMinLooks = 1 << 14, kMaxLooks = std::uint64_t{1} << 24;
-constexpr std::uint64_t kLooksPerRecord = 1 << 11, kLooksPerUnit = 32;
+constexpr std::uint64_t kMinLooks = 1 << 12, kMaxLooks = std::uint64_t{1} << 24;
+constexpr std::uint64_t kMaxLooksPerRecord = 1 << 11, kLooksPerUnit = 32;
+/// Minimum number of records of a surface whose rim is read.
+constexpr std::uint64_t kMinRecordsOfRim = 128;
+
 }  // namespace
 
 /// Bounds the share of caps over cells by their areas, the largest cells first. A cap of area
@@ -206,10 +209,13 @@ void CapGrid::fill(const TreeInfo& caps, const TreeInfo& surface, const PageRead
   const std::uint64_t records = std::min(surface.record_count, kMaxVisits);
   const std::uint64_t visits = std::clamp(kVisitsPerRecord * records, kMinVisits, kMaxVisits);
   AreaFiller(*this, caps, visits, pages).run();
+  // A small model has few caps to sum, and should open in little time.
+  if (records < kMinRecordsOfRim) return;
   CapRim rim;
   rim.read(caps, pages);
   if (!rim.is_known()) return;
-  const std::uint64_t looks = std::clamp(kLooksPerRecord * records, kMinLooks, kMaxLooks);
+  const std::uint64_t looks =
+      std::clamp(std::min(records, kMaxLooksPerRecord) * records, kMinLooks, kMaxLooks);
   RimFiller(*this, caps, rim, looks, pages).run();
 }
 
