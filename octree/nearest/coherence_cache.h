@@ -83,14 +83,18 @@ class CoherenceCache {
 
   /// How queries follow each other: along a path, which leads away from a ball's centre, or along
   /// a space-filling curve, which stays near it, so that a smaller ball lasts as long.
+  /// The order of a batch is such a curve, and not the caller's.
   enum class Course { kPath, kCurve };
-  void follow(Course course) { steps_ = course == Course::kPath ? kPathSteps : kCurveSteps; }
+  void follow(Course course) { course_ = course; }
+  Course course() const { return course_; }
 
  private:
   double step_to(const Point& query) const { return (query - last_).norm(); }
-  // Radius of a ball that lasts for steps_ steps, about a query `distance` from the surface.
+  // Radius of a ball that lasts for the steps of the course, about a query `distance` from the
+  // surface.
   double radius_for(double step, double distance) const {
-    return distance + steps_ * std::max(step, distance * kMinStepShare);
+    const double steps = course_ == Course::kPath ? kPathSteps : kCurveSteps;
+    return distance + steps * std::max(step, distance * kMinStepShare);
   }
 
   // Upper bound on the distance of a nearest point from the surface. Its coordinates are rounded,
@@ -108,7 +112,7 @@ class CoherenceCache {
   Point centre_ = Point::Zero();
   Point last_ = Point::Constant(std::numeric_limits<double>::infinity());
   double radius_ = 0;
-  double steps_ = kPathSteps;
+  Course course_ = Course::kPath;
   Point last_nearest_ = Point::Zero();
   NearbySubtrees subtrees_;
   NearbyTriangles triangles_;

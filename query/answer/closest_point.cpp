@@ -167,7 +167,8 @@ class ClosestPointQuery {
     limits.max_error = may_err ? model_.scale.in(options_.max_error) : 0;
     limits.max_distance = model_.scale.in(options_.max_distance);
     limits.max_work = options_.max_work;
-    limits.allow_history = limits.max_error > 0 && !coherence_.in_batch;
+    limits.allow_history = limits.max_error > 0 &&
+                           coherence_.nearest.course() == octree::CoherenceCache::Course::kPath;
     return search_nearest(limits);
   }
 

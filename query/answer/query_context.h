@@ -21,9 +21,6 @@ namespace planetree::query {
 struct Coherence {
   /// If false, every query starts from the root, as the first one does. For tests.
   bool is_on = true;
-  /// Whether the queries are those of a batch. Then answers within an allowed error do not depend
-  /// on earlier queries either, since the order in a batch is not the user's.
-  bool in_batch = false;
 
   octree::CoherenceCache nearest;      ///< subtrees and triangles near the last query
   octree::NearestAnswer last_nearest;  ///< last real-time answer; used if pages are missing

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "query/model_state.h"
@@ -21,19 +22,29 @@ std::vector<Vec3> path_and_jumps() {
   return path;
 }
 
-class CoherenceTest : public testing::TestWithParam<std::uint64_t> {};
+// A model opened with the memory of the parameter.
+class CoherenceTest : public testing::TestWithParam<std::uint64_t> {
+ protected:
+  void SetUp() override {
+    OpenOptions options;
+    options.memory_budget_bytes = GetParam();
+    options.max_probes = 2;
+    auto model = ModelState::open(sample_.path(), options);
+    ASSERT_TRUE(model) << model.error().text;
+    model_ = *std::move(model);
+  }
+  std::unique_ptr<ProbeState> probe() {
+    return ProbeState::create(model_->serving(), *model_->claim_reader());
+  }
+
+  const SampleModel sample_ = SampleModel::masked(octree::sphere(5));
+  std::unique_ptr<ModelState> model_;
+};
 INSTANTIATE_TEST_SUITE_P(Budgets, CoherenceTest,
                          testing::Values(std::uint64_t{600} << 10, std::uint64_t{64} << 20));
 
 TEST_P(CoherenceTest, ChangesNoBitOfAnExactAnswer) {
-  const SampleModel sample = SampleModel::masked(octree::sphere(5));
-  OpenOptions options;
-  options.memory_budget_bytes = GetParam();
-  options.max_probes = 2;
-  const auto model = ModelState::open(sample.path(), options);
-  ASSERT_TRUE(model) << model.error().text;
-  const auto kept = ProbeState::create((*model)->serving(), *(*model)->claim_reader());
-  const auto fresh = ProbeState::create((*model)->serving(), *(*model)->claim_reader());
+  const auto kept = probe(), fresh = probe();
   fresh->coherence().is_on = false;
   for (const Vec3& query : path_and_jumps()) {
     const ClosestPoint expected = fresh->closest_point(query, {});
@@ -54,27 +65,14 @@ std::uint64_t lookups(ModelState& model, double max_error) {
 }
 
 TEST_P(CoherenceTest, AnAllowedErrorCostsNoMoreThanNone) {
-  const SampleModel sample = SampleModel::masked(octree::sphere(5));
-  OpenOptions options;
-  options.memory_budget_bytes = GetParam();
-  options.max_probes = 1;
-  const auto model = ModelState::open(sample.path(), options);
-  ASSERT_TRUE(model) << model.error().text;
-  lookups(**model, 0);
-  const std::uint64_t exact = lookups(**model, 0);
+  lookups(*model_, 0);
+  const std::uint64_t exact = lookups(*model_, 0);
   for (const double error : {1e-5, 1e-3, 1e-2, 1e-1})
-    EXPECT_LE(lookups(**model, error), exact * 102 / 100) << error;
+    EXPECT_LE(lookups(*model_, error), exact * 102 / 100) << error;
 }
 
 TEST_P(CoherenceTest, LeavesAllowedErrorsInTheirIntervals) {
-  const SampleModel sample = SampleModel::masked(octree::sphere(5));
-  OpenOptions options;
-  options.memory_budget_bytes = GetParam();
-  options.max_probes = 2;
-  const auto model = ModelState::open(sample.path(), options);
-  ASSERT_TRUE(model) << model.error().text;
-  const auto kept = ProbeState::create((*model)->serving(), *(*model)->claim_reader());
-  const auto fresh = ProbeState::create((*model)->serving(), *(*model)->claim_reader());
+  const auto kept = probe(), fresh = probe();
   fresh->coherence().is_on = false;
   int within_error = 0, at = 0;
   for (const Vec3& query : path_and_jumps()) {

@@ -10,27 +10,10 @@
 #include "planetree/stats.h"
 #include "tools/cli/size_text.h"
 #include "tools/cli/subcommand.h"
+#include "tools/session/sorted.h"
 
 namespace planetree::tools {
 namespace {
-
-/// Measured values in ascending order.
-template <class Value>
-class Sorted {
- public:
-  explicit Sorted(std::vector<Value> values) : values_(std::move(values)) {
-    std::sort(values_.begin(), values_.end());
-  }
-  /// The quantile for a share in [0, 1]; 0 if there are no values.
-  Value at(double share) const {
-    if (values_.empty()) return {};
-    const auto rank = static_cast<std::size_t>(share * static_cast<double>(values_.size()));
-    return values_[std::min(rank, values_.size() - 1)];
-  }
-
- private:
-  std::vector<Value> values_;
-};
 
 constexpr std::pair<const char*, double> kShares[] = {
     {"p50", 0.5}, {"p99", 0.99}, {"p999", 0.999}, {"p9999", 0.9999}, {"max", 1}};

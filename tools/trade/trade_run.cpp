@@ -1,20 +1,17 @@
 #include "tools/trade/trade_run.h"
 
-#include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <utility>
+
+#include "tools/session/sorted.h"
 
 namespace planetree::tools {
 namespace {
 
 TradeQuantiles quantiles_of(std::vector<double> values) {
-  if (values.empty()) return {};
-  std::sort(values.begin(), values.end());
-  const auto at = [&values](double share) {
-    const auto rank = static_cast<std::size_t>(share * static_cast<double>(values.size()));
-    return values[std::min(rank, values.size() - 1)];
-  };
-  return {at(0.5), at(0.99), values.back()};
+  const Sorted<double> sorted(std::move(values));
+  return {sorted.at(0.5), sorted.at(0.99), sorted.at(1)};
 }
 
 bool is_broken(const ClosestPoint& answer, const ClosestPoint& exact) {
@@ -59,7 +56,7 @@ std::vector<double> median_seconds(std::span<const std::function<void()>> action
       seconds[i].push_back(thread_seconds() - before);
     }
   std::vector<double> medians;
-  for (auto& times : seconds) medians.push_back(quantiles_of(std::move(times)).p50);
+  for (auto& times : seconds) medians.push_back(Sorted<double>(std::move(times)).at(0.5));
   return medians;
 }
 

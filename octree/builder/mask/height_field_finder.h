@@ -10,8 +10,7 @@ namespace planetree::octree {
 ///
 /// The proof is for a prism, a box around the block. Nothing touches its two ends, and the first
 /// end is outside of the solid. All triangles in it rise towards the first end, so that crossings
-/// only add up. A line through the middle crosses one of them. No cap
-/// meets the prism.
+/// only add up. A line through the middle crosses one of them. No cap meets the prism.
 class HeightFieldFinder {
  public:
   /// tree, mask  of a whole model; both must outlive this.
