@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -10,10 +11,12 @@
 #include "planetree/model.h"
 #include "planetree/probe.h"
 #include "tools/cli/open_model.h"
+#include "tools/cli/output_file.h"
 #include "tools/cli/progress.h"
 #include "tools/cli/subcommand_options.h"
 #include "tools/points/point_reader.h"
 #include "tools/trade/median_edge.h"
+#include "tools/trade/trade_page.h"
 #include "tools/trade/trade_report.h"
 
 namespace planetree::tools {
@@ -70,32 +73,70 @@ class Trade {
         progress_(arguments.quiet || arguments.json, false) {}
 
   int run() {
+    // Before the measurements, which would be lost if the page could not be written.
+    if (!arguments_.html.empty()) {
+      if (const int status = open_page(); status != kDone) return status;
+    }
     auto model = open_model(arguments_.file, open_options(arguments_.memory_bytes), console_);
     if (!model) return fail(model.error());
-    auto edge = median_edge(arguments_.file);
-    if (!edge) return fail(edge.error());
-    const ModelInfo& info = model->info();
-    record_.file = arguments_.file.string();
-    record_.triangles = info.triangles;
-    record_.diagonal = core_diagonal(info);
-    record_.median_edge = *edge;
-    if (!(record_.diagonal > 0)) return fail(no_extent());
-    if (const int status = make_workloads(*model); status != kDone) return status;
-    const std::uint64_t whole =
-        model->stats().table_bytes + std::uint64_t{info.pages} * info.page_bytes;
-    const auto settings =
-        trade_settings(record_.diagonal, record_.median_edge, arguments_.memory_bytes, whole);
-    progress_.start("measuring", settings.size() * workloads_.size(), "runs");
-    for (const TradeSetting& setting : settings)
-      if (const auto measured = measure(setting); !measured) return fail(measured.error());
-    measure_times(*model);
+    if (const int status = measure_all(*model); status != kDone) return status;
     progress_.finish();
-    console_.print(arguments_.json ? trade_json(record_) : trade_words(record_));
+    if (const int status = report(); status != kDone) return status;
     const auto lost = pages_lost(model->stats());
     return console_.finish(lost ? fail(*lost) : kDone);
   }
 
  private:
+  bool page_is_standard_output() const { return arguments_.html == "-"; }
+  std::string page_name() const {
+    return page_is_standard_output() ? "standard output" : arguments_.html.string();
+  }
+
+  int open_page() {
+    if (page_is_standard_output() && console_.output_is_terminal())
+      return console_.fail(
+          page_name(),
+          make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
+                     "a terminal cannot show a page; redirect standard output or name a file"));
+    auto created = OutputFile::create(arguments_.html, arguments_.force);
+    if (!created) return console_.fail(page_name(), created.error());
+    page_.emplace(std::move(*created));
+    return kDone;
+  }
+
+  int report() {
+    const std::string text = arguments_.json ? trade_json(record_) : trade_words(record_);
+    if (page_is_standard_output())
+      console_.note(text);
+    else
+      console_.print(text);
+    if (!page_) return kDone;
+    const std::string html = trade_page(record_, trade_command(arguments_));
+    auto written = page_->write(std::as_bytes(std::span(html)));
+    if (written) written = page_->commit();
+    return written ? kDone : console_.fail(page_name(), written.error());
+  }
+
+  int measure_all(const Model& model) {
+    auto edge = median_edge(arguments_.file);
+    if (!edge) return fail(edge.error());
+    const ModelInfo& info = model.info();
+    record_.file = arguments_.file.string();
+    record_.triangles = info.triangles;
+    record_.diagonal = core_diagonal(info);
+    record_.median_edge = *edge;
+    record_.whole_bytes = model.stats().table_bytes + std::uint64_t{info.pages} * info.page_bytes;
+    if (!(record_.diagonal > 0)) return fail(no_extent());
+    if (const int status = make_workloads(model); status != kDone) return status;
+    const auto settings = trade_settings(record_.diagonal, record_.median_edge,
+                                         arguments_.memory_bytes, record_.whole_bytes);
+    progress_.start("measuring", settings.size() * workloads_.size(), "runs");
+    for (const TradeSetting& setting : settings)
+      if (const auto measured = measure(setting); !measured) return fail(measured.error());
+    measure_times(model);
+    return kDone;
+  }
+
   static OpenOptions open_options(std::uint64_t memory_bytes) {
     OpenOptions options;
     options.memory_budget_bytes = memory_bytes;
@@ -209,6 +250,7 @@ class Trade {
   Progress progress_;
   TradeRecord record_;
   std::vector<Workload> workloads_;
+  std::optional<OutputFile> page_;
 };
 
 }  // namespace
@@ -232,6 +274,12 @@ void add_trade(CLI::App& app, Console& console, std::function<int()>& action) {
   subcommand.default_text(subcommand.bytes("--memory", options->memory_bytes,
                                            "Maximum memory of queries that wait for pages"),
                           "256M");
+  const auto html = subcommand.path(
+      "--html", "OUT.html", options->html,
+      "Also write the report as one HTML file with plots, which needs no network; - is standard "
+      "output, and the report then goes to standard error");
+  subcommand.need(subcommand.flag("--force", options->force, "Replace the page if it exists"),
+                  html);
   subcommand.flag("--json", options->json, "Report as one JSON object");
   subcommand.flag("--quiet", options->quiet, "Show no progress");
   subcommand.on_given([options, &console, &action]() -> std::string {

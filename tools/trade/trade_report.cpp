@@ -13,34 +13,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double per_second(const TradeResult& result) {
-  return result.seconds > 0 ? static_cast<double>(result.points) / result.seconds : 0;
-}
-
-double pages_per_query(const TradeResult& result) {
-  return static_cast<double>(result.pages) / static_cast<double>(result.points);
-}
-
-std::string name_of(const TradeSetting& setting, double diagonal) {
-  if (setting.max_error > 0) return fmt::format("error {:.2g}", setting.max_error / diagonal);
-  if (setting.max_work != QueryOptions::kNoLimit) return fmt::format("work {}", setting.max_work);
-  if (setting.wait == Wait::kNever)
-    return fmt::format("no wait, {}", short_bytes(setting.memory_bytes));
-  return "exact";
-}
-
 std::string table_row(const TradeRow& row, std::size_t workload, const TradeRecord& record) {
   const TradeResult& result = row.results[workload];
-  const auto share = [&](double length) { return length / record.diagonal; };
   const bool dominated =
       std::any_of(record.rows.begin(), record.rows.end(),
                   [&](const TradeRow& other) { return row.is_dominated_by(other); });
   return fmt::format(
       "  {:<20}{:>9}{:>8.2f}{:>8.3f}  {:>8.1e}{:>9.1e}  {:>8.1e}{:>9.1e}{:>8}{:>8}{}\n",
       name_of(row.setting, record.diagonal), short_count(per_second(result)), result.ratio_to_exact,
-      pages_per_query(result), share(result.promised.p50), share(result.promised.p99),
-      share(result.actual.p50), share(result.actual.p99), result.broken, result.side_unknown,
-      dominated ? "  -" : "");
+      pages_per_query(result), record.share(result.promised.p50), record.share(result.promised.p99),
+      record.share(result.actual.p50), record.share(result.actual.p99), result.broken,
+      result.side_unknown, dominated ? "  -" : "");
 }
 
 std::string table(const TradeRecord& record, std::size_t workload) {
@@ -55,25 +38,10 @@ std::string table(const TradeRecord& record, std::size_t workload) {
   return text;
 }
 
-/// The largest 99 % quantile of the true error over the workloads, and counts over all of them.
-struct Overall {
-  double actual_p99 = 0;
-  std::size_t broken = 0, points = 0;
-};
-Overall overall(const TradeRow& row) {
-  Overall all;
-  for (const TradeResult& result : row.results) {
-    all.actual_p99 = std::max(all.actual_p99, result.actual.p99);
-    all.broken += result.broken;
-    all.points += result.points;
-  }
-  return all;
-}
-
 std::string recommendation(const TradeGoal& goal, const TradeRow* row) {
   if (!row) return fmt::format("  {:<24}no setting keeps it\n", goal.name);
   const std::string options = row->setting.options();
-  const Overall all = overall(*row);
+  const TradeOverall all = overall(*row);
   return fmt::format(
       "  {:<24}{:<24}  {:.2f} of the time of exact answers; true error p99 {:.2g}; "
       "broken {} of {}\n",
@@ -112,14 +80,6 @@ Json json_of(const TradeRow& row, std::size_t workload, const TradeRecord& recor
 }
 
 }  // namespace
-
-std::vector<TradeGoal> trade_goals(const TradeRecord& record) {
-  std::vector<TradeGoal> goals;
-  for (const double share : {1e-4, 1e-3, 1e-2})
-    goals.push_back({share * record.diagonal, fmt::format("{:.0e} of the diagonal", share)});
-  if (record.median_edge > 0) goals.push_back({record.median_edge, "the median edge"});
-  return goals;
-}
 
 std::string trade_words(const TradeRecord& record) {
   std::string text = fmt::format(

@@ -94,6 +94,52 @@ TEST_F(CommandTrade, RefusesWhatItCannotMeasure) {
   EXPECT_NE(result.errors.find("nothing to trade"), std::string::npos);
 }
 
+TEST_F(CommandTrade, WritesAPage) {
+  const Outcome result =
+      run({"trade", "tree.ptree", "--count", "20", "--quiet", "--html", "out.html"});
+  EXPECT_EQ(result.status, 0) << result.errors;
+  EXPECT_NE(result.output.find("uniform, 20 points"), std::string::npos) << "the report too";
+  const std::string html = text_of("out.html");
+  EXPECT_EQ(html.find("<!DOCTYPE html>"), 0u);
+  EXPECT_TRUE(html.ends_with("</html>\n"));
+  EXPECT_NE(html.find("planetree trade tree.ptree --count 20 --html out.html --force"),
+            std::string::npos);
+}
+
+TEST_F(CommandTrade, ReplacesAPageOnlyIfTold) {
+  write("out.html", "mine");
+  const std::vector<std::string> options = {"trade",   "tree.ptree", "--count", "2",
+                                            "--quiet", "--html",     "out.html"};
+  const Outcome refused = run(options);
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_EQ(refused.output, "") << "nothing is measured before";
+  EXPECT_NE(refused.errors.find("--force"), std::string::npos);
+  EXPECT_EQ(text_of("out.html"), "mine");
+  std::vector<std::string> forced = options;
+  forced.emplace_back("--force");
+  EXPECT_EQ(run(forced).status, 0);
+  EXPECT_NE(text_of("out.html"), "mine");
+  EXPECT_EQ(run({"trade", "tree.ptree", "--force"}).status, 2) << "there is nothing to replace";
+}
+
+TEST_F(CommandTrade, LeavesNoPageBehindIfItFails) {
+  EXPECT_EQ(run({"trade", "mesh.obj", "--html", "out.html"}).status, 1);
+  EXPECT_EQ(run({"trade", "tree.ptree", "--html", "none/out.html"}).status, 2);
+  EXPECT_EQ(run({"trade", "tree.ptree", "--count", "2", "--quiet", "--html", "/dev/full"}).status,
+            3);
+  EXPECT_FALSE(fs::exists("out.html"));
+  for (const auto& entry : fs::directory_iterator("."))
+    EXPECT_FALSE(entry.path().filename().string().starts_with(".planetree")) << entry;
+}
+
+TEST_F(CommandTrade, AsksAtThePositionsOfASession) {
+  ASSERT_EQ(
+      run({"touch", "tree.ptree", "--seconds", "1", "--rate", "50", "--ticks", "ticks.csv"}).status,
+      0);
+  const Json report = measured({"--points", "ticks.csv"});
+  EXPECT_EQ(report["rows"][0]["points"], 50);
+}
+
 // Two triangles with legs of 1 and a shared hypotenuse.
 TEST_F(CommandTrade, MedianEdgeIsThatOfTheTriangles) {
   write("square.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n");

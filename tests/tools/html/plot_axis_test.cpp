@@ -1,0 +1,87 @@
+#include "tools/html/plot_axis.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tools/html/html_text.h"
+
+namespace planetree::tools {
+namespace {
+
+std::vector<std::string> texts_of(const PlotAxis& axis) {
+  std::vector<std::string> texts;
+  for (const PlotTick& tick : axis.ticks()) texts.push_back(tick.text);
+  return texts;
+}
+
+PlotAxis axis_of(const std::vector<double>& values, double least = 1e-9) {
+  return PlotAxis::logarithmic("title", values, least, short_text);
+}
+
+TEST(PlotAxis, BeginsAndEndsAtTicksAroundTheValues) {
+  const PlotAxis axis = axis_of({2e-6, 0.3});
+  EXPECT_EQ(texts_of(axis),
+            (std::vector<std::string>{"1e-6", "1e-5", "1e-4", "1e-3", "0.01", "0.1", "1"}));
+  EXPECT_DOUBLE_EQ(axis.place(1e-6), 0);
+  EXPECT_DOUBLE_EQ(axis.place(1), 1);
+  EXPECT_DOUBLE_EQ(axis.place(1e-3), 0.5);
+}
+
+TEST(PlotAxis, HasAFewTicksForAnySpan) {
+  for (const double span : {1.0, 1.0001, 1.5, 2.0, 5.0, 20.0, 1e3, 1e6, 1e8}) {
+    const PlotAxis axis = axis_of({0.7, 0.7 * span});
+    EXPECT_GE(axis.ticks().size(), 3u) << span;
+    EXPECT_LE(axis.ticks().size(), 10u) << span;
+    EXPECT_GT(axis.place(0.7), 0) << span;
+    EXPECT_LT(axis.place(0.7 * span), 1) << span;
+    for (std::size_t i = 1; i < axis.ticks().size(); ++i) {
+      EXPECT_GT(axis.ticks()[i].place, axis.ticks()[i - 1].place) << span;
+      EXPECT_NE(axis.ticks()[i].text, axis.ticks()[i - 1].text) << span;
+    }
+  }
+}
+
+TEST(PlotAxis, PutsValuesWithoutAPlaceInALane) {
+  const PlotAxis axis = axis_of({0, 1e-16, 1e-3, 1e-1});
+  EXPECT_GT(axis.lane_end(), 0);
+  EXPECT_TRUE(axis.is_in_lane(0) && axis.is_in_lane(1e-16) && !axis.is_in_lane(1e-3));
+  EXPECT_EQ(axis.place(0), axis.place(1e-16));
+  EXPECT_LT(axis.place(0), axis.lane_end());
+  EXPECT_GE(axis.place(1e-3), axis.lane_end());
+  EXPECT_EQ(axis.ticks().front().text, "< 1e-9");
+  EXPECT_EQ(axis_of({1e-3, 1e-1}).lane_end(), 0) << "none where it is not needed";
+}
+
+TEST(PlotAxis, NeedsNoValueOutsideTheLane) {
+  const PlotAxis axis = axis_of({0, 0});
+  EXPECT_GE(axis.ticks().size(), 3u);
+  EXPECT_LT(axis.place(0), axis.lane_end());
+  EXPECT_GE(axis_of({}).ticks().size(), 3u);
+}
+
+TEST(PlotAxis, ShowsAnotherUnitAtTheSamePlaces) {
+  const PlotAxis axis = axis_of({0, 2e-6, 0.3});
+  const PlotAxis edges = axis.in_units_of(0.003, "edges", short_text);
+  EXPECT_EQ(texts_of(edges), (std::vector<std::string>{"1e-3", "0.01", "0.1", "1", "10", "100"}));
+  for (const PlotTick& tick : edges.ticks())
+    if (tick.text == "1") {
+      EXPECT_NEAR(tick.place, axis.place(0.003), 1e-12);
+    }
+  EXPECT_NEAR(edges.place(0.3 / 0.003), axis.place(0.3), 1e-12);
+  EXPECT_EQ(edges.place(0), axis.place(0));
+}
+
+TEST(PlotAxis, CanBeSharesOrNames) {
+  const PlotAxis percent = PlotAxis::percent("share");
+  EXPECT_EQ(percent.ticks().back().text, "100 %");
+  EXPECT_EQ(percent.place(0.25), 0.25);
+  const PlotAxis named = PlotAxis::named("memory", {"a", "b"});
+  EXPECT_EQ(named.place(0), 0.25);
+  EXPECT_EQ(named.place(1), 0.75);
+  EXPECT_EQ(texts_of(named), (std::vector<std::string>{"a", "b"}));
+}
+
+}  // namespace
+}  // namespace planetree::tools

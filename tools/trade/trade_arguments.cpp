@@ -1,0 +1,19 @@
+#include "tools/trade/trade_arguments.h"
+
+#include <fmt/format.h>
+
+#include "tools/cli/shell_word.h"
+
+namespace planetree::tools {
+
+std::string trade_command(const TradeArguments& arguments) {
+  const TradeArguments defaults;
+  std::string text = "planetree trade " + shell_word(arguments.file.string());
+  if (!arguments.points.empty()) text += " --points " + shell_word(arguments.points.string());
+  if (arguments.count != defaults.count) text += fmt::format(" --count {}", arguments.count);
+  if (arguments.memory_bytes != defaults.memory_bytes)
+    text += fmt::format(" --memory {}", arguments.memory_bytes);
+  return text + " --html " + shell_word(arguments.html.string()) + " --force";
+}
+
+}  // namespace planetree::tools

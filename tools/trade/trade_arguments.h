@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace planetree::tools {
+
+/// Arguments of `planetree trade`.
+struct TradeArguments {
+  std::filesystem::path file;
+  std::filesystem::path points;  ///< file of query points; empty: they are made
+  std::uint64_t count = 2000;    ///< query points of each workload
+  std::uint64_t memory_bytes = std::uint64_t{256} << 20;
+  std::filesystem::path html;  ///< page to write; empty: none; "-" is standard output
+  bool force = false;          ///< whether an existing page may be replaced
+  bool json = false;
+  bool quiet = false;
+};
+
+/// The command that measures the same and writes the page again, as typed in a shell. Options that
+/// have their defaults are left out.
+std::string trade_command(const TradeArguments& arguments);
+
+}  // namespace planetree::tools
