@@ -21,8 +21,11 @@ const char* const kPageScript = R"js('use strict';
 
   const fill = (tip, key) => {
     const list = document.createElement('dl');
-    for (const [name, value] of figures[key].values)
-      list.append(element('dt', name), element('dd', value));
+    for (const [name, value] of figures[key].values) {
+      const pair = document.createElement('div');
+      pair.append(element('dt', name), element('dd', value));
+      list.append(pair);
+    }
     tip.replaceChildren(element('strong', figures[key].title), list);
   };
 

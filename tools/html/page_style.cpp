@@ -67,14 +67,15 @@ svg text { font: 11px system-ui, -apple-system, "Segoe UI", "Noto Sans", "DejaVu
 .stem { stroke: currentColor; stroke-width: 1.6; stroke-opacity: 0.55; fill: none; }
 .point.lit .shape { stroke: var(--text); stroke-width: 2.4; }
 .tip {
-  position: absolute; display: none; z-index: 2; width: max-content; max-width: min(100%, 330px);
+  position: absolute; display: none; z-index: 2; width: max-content; max-width: 100%;
   padding: 9px 12px; background: var(--raised); color: var(--text); pointer-events: none;
   border: 1px solid var(--line); border-radius: 6px; box-shadow: var(--shadow); font-size: 13px;
   line-height: 1.4;
 }
 .tip.shown { display: block; }
 .tip strong { display: block; margin-bottom: 3px; font-size: 14px; }
-.tip dl { display: grid; grid-template-columns: auto auto; gap: 0 14px; margin: 0; }
+.tip dl { columns: 2; column-gap: 24px; margin: 0; }
+.tip dl div { display: flex; justify-content: space-between; gap: 12px; break-inside: avoid; }
 .tip dt { color: var(--quiet); }
 .tip dd { margin: 0; text-align: right; overflow-wrap: anywhere; font-variant-numeric: tabular-nums; }
 .scroll { overflow-x: auto; border-radius: 4px; }
@@ -82,7 +83,7 @@ svg text { font: 11px system-ui, -apple-system, "Segoe UI", "Noto Sans", "DejaVu
 table { border-collapse: collapse; font-size: 13.5px; font-variant-numeric: tabular-nums; }
 .caption { max-width: none; color: var(--quiet); font-size: 13.5px; margin: 14px 0 6px; }
 th, td { padding: 3px 10px; white-space: nowrap; text-align: right; }
-thead th { white-space: normal; color: var(--quiet); font-weight: 500; vertical-align: bottom; }
+thead th { color: var(--quiet); font-weight: 500; vertical-align: bottom; }
 thead tr:last-child th, thead th[rowspan] { border-bottom: 1px solid var(--line); }
 th.group { text-align: center; padding-bottom: 1px; }
 th.group span { display: block; border-bottom: 1px solid var(--line); }
@@ -105,7 +106,11 @@ code { font: 12.5px ui-monospace, "SF Mono", "DejaVu Sans Mono", monospace; }
 @media (max-width: 900px) {
   .plots { grid-template-columns: minmax(0, 1fr); }
 }
+@media (min-width: 901px) {
+  thead th { white-space: normal; }
+}
 @media (max-width: 560px) {
+  .tip dl { columns: 1; }
   main { padding: 18px 14px 40px; }
   h1 { font-size: 23px; }
   svg text { font-size: 15px; }

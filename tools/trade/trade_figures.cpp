@@ -59,11 +59,11 @@ HtmlFigures named_figures(const TradeRecord& record, const TradeRow& row, std::s
                                 name_of(record.workloads[workload])),
                     {}};
   for (const TradeFigure& figure : trade_figures(record, row, workload)) {
-    const std::string& group = figure.column.group;
-    const std::string name = group.empty()        ? figure.column.name
-                             : group == "answers" ? figure.column.name + " answers"
-                                                  : group + " " + figure.column.name;
-    named.values.emplace_back(name, figure.text);
+    const auto& [group, name, kind] = figure.column;
+    const std::string full = group.empty()        ? name
+                             : group == "answers" ? name + " answers"
+                                                  : group + " " + name;
+    named.values.emplace_back(full, figure.text);
   }
   return named;
 }
