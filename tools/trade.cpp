@@ -1,10 +1,9 @@
 #include "tools/trade.h"
 
-#include <algorithm>
-#include <chrono>
+#include <filesystem>
 #include <memory>
 #include <optional>
-#include <thread>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -16,6 +15,7 @@
 #include "tools/cli/subcommand_options.h"
 #include "tools/points/point_reader.h"
 #include "tools/trade/median_edge.h"
+#include "tools/trade/trade_measurement.h"
 #include "tools/trade/trade_page.h"
 #include "tools/trade/trade_report.h"
 
@@ -23,46 +23,22 @@ namespace planetree::tools {
 namespace {
 
 constexpr std::uint64_t kMaxPoints = 1000000;
-constexpr int kRounds = 3;
-/// Queries that do not wait come at the rate of a haptic device, and not more than so many.
-constexpr std::chrono::milliseconds kPace(1);
-constexpr std::size_t kMaxPaced = 1000;
 
-/// The points of a workload and their exact answers.
-struct Workload {
-  std::vector<Vec3> points;
-  std::vector<ClosestPoint> exact;
-};
-
-QueryOptions options_of(const TradeSetting& setting) {
-  QueryOptions options;
-  options.max_error = setting.max_error;
-  options.max_work = setting.max_work;
-  options.wait = setting.wait;
-  return options;
-}
-
-void answer_all(Probe& probe, std::span<const Vec3> points, const QueryOptions& options,
-                std::vector<ClosestPoint>& answers) {
-  answers.resize(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    answers[i] = probe.closest_point(points[i], options);
-}
-
-/// Answers points one each kPace. Returns the processor time of the queries.
-double answer_paced(Probe& probe, std::span<const Vec3> points, const QueryOptions& options,
-                    std::vector<ClosestPoint>& answers) {
-  answers.resize(points.size());
-  double seconds = 0;
-  auto due = std::chrono::steady_clock::now();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    std::this_thread::sleep_until(due);
-    const double before = thread_seconds();
-    answers[i] = probe.closest_point(points[i], options);
-    seconds += thread_seconds() - before;
-    due += kPace;
+/// The page must neither be an input, nor be shown by a terminal.
+Result<void> check_page(const TradeArguments& arguments, const Console& console) {
+  namespace fs = std::filesystem;
+  const auto refuse = [](const char* text) {
+    return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere, "%s", text);
+  };
+  if (arguments.html == "-") {
+    if (!console.output_is_terminal()) return {};
+    return refuse("a terminal cannot show a page; redirect standard output or name a file");
   }
-  return seconds;
+  std::error_code none;
+  for (const fs::path& input : {arguments.file, arguments.points})
+    if (!input.empty() && input != "-" && fs::equivalent(input, arguments.html, none))
+      return refuse("this is an input itself; name another output");
+  return {};
 }
 
 class Trade {
@@ -70,18 +46,19 @@ class Trade {
   Trade(const TradeArguments& arguments, Console& console)
       : arguments_(arguments),
         console_(console),
-        progress_(arguments.quiet || arguments.json, false) {}
+        progress_(arguments.quiet || arguments.json, false),
+        measurement_(arguments.file, record_, [this] { progress_.add(1); }) {}
 
   int run() {
     // Before the measurements, which would be lost if the page could not be written.
     if (!arguments_.html.empty()) {
       if (const int status = open_page(); status != kDone) return status;
     }
-    auto model = open_model(arguments_.file, open_options(arguments_.memory_bytes), console_);
+    auto model = open_model(arguments_.file, trade_open_options(arguments_.memory_bytes), console_);
     if (!model) return fail(model.error());
     if (const int status = measure_all(*model); status != kDone) return status;
     progress_.finish();
-    if (const int status = report(); status != kDone) return status;
+    if (const int status = report(); status != kDone) return console_.finish(status);
     const auto lost = pages_lost(model->stats());
     return console_.finish(lost ? fail(*lost) : kDone);
   }
@@ -93,11 +70,8 @@ class Trade {
   }
 
   int open_page() {
-    if (page_is_standard_output() && console_.output_is_terminal())
-      return console_.fail(
-          page_name(),
-          make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
-                     "a terminal cannot show a page; redirect standard output or name a file"));
+    if (const auto checked = check_page(arguments_, console_); !checked)
+      return console_.fail(page_name(), checked.error());
     auto created = OutputFile::create(arguments_.html, arguments_.force);
     if (!created) return console_.fail(page_name(), created.error());
     page_.emplace(std::move(*created));
@@ -130,19 +104,14 @@ class Trade {
     if (const int status = make_workloads(model); status != kDone) return status;
     const auto settings = trade_settings(record_.diagonal, record_.median_edge,
                                          arguments_.memory_bytes, record_.whole_bytes);
-    progress_.start("measuring", settings.size() * workloads_.size(), "runs");
+    progress_.start("measuring", settings.size() * record_.workloads.size(), "runs");
     for (const TradeSetting& setting : settings)
-      if (const auto measured = measure(setting); !measured) return fail(measured.error());
-    measure_times(model);
+      if (const auto measured = measurement_.measure(setting); !measured)
+        return fail(measured.error());
+    measurement_.measure_times(model);
     return kDone;
   }
 
-  static OpenOptions open_options(std::uint64_t memory_bytes) {
-    OpenOptions options;
-    options.memory_budget_bytes = memory_bytes;
-    options.max_probes = 1;
-    return options;
-  }
   static Error no_extent() {
     return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
                       "all of its triangles are at one point; there is nothing to trade");
@@ -155,17 +124,14 @@ class Trade {
   int make_workloads(const Model& model) {
     auto probe = Probe::create(model);
     if (!probe) return fail(probe.error());
-    if (!arguments_.points.empty()) {
-      record_.workloads = {TradeWorkload::kGiven};
-      workloads_.resize(1);
-      if (const int status = read_points(workloads_[0].points); status != kDone) return status;
-    } else {
-      for (const TradeWorkload workload : kMadeWorkloads) {
-        record_.workloads.push_back(workload);
-        workloads_.push_back({trade_points(model, *probe, workload, arguments_.count), {}});
-      }
+    if (arguments_.points.empty()) {
+      for (const TradeWorkload workload : kMadeWorkloads)
+        measurement_.add(workload, trade_points(model, *probe, workload, arguments_.count), *probe);
+      return kDone;
     }
-    for (Workload& workload : workloads_) answer_all(*probe, workload.points, {}, workload.exact);
+    std::vector<Vec3> points;
+    if (const int status = read_points(points); status != kDone) return status;
+    measurement_.add(TradeWorkload::kGiven, std::move(points), *probe);
     return kDone;
   }
 
@@ -187,69 +153,11 @@ class Trade {
                                     "it has no point; give at least one, as a line x,y,z"));
   }
 
-  /// Answers all points with a model of which no page is in memory. A budget that is too small for
-  /// the model is noted.
-  Result<void> measure(const TradeSetting& setting) {
-    TradeRow row{setting, {}};
-    for (const Workload& workload : workloads_) {
-      const auto model = Model::open(arguments_.file, open_options(setting.memory_bytes));
-      if (!model && setting.wait == Wait::kNever && model.error().code == ErrorCode::kNoMemory) {
-        record_.too_small.push_back(setting.memory_bytes);
-        return {};
-      }
-      if (!model) return model.error();
-      auto probe = Probe::create(*model);
-      if (!probe) return probe.error();
-      const bool paced = setting.wait == Wait::kNever;
-      const auto points =
-          std::span(workload.points)
-              .first(std::min(workload.points.size(), paced ? kMaxPaced : workload.points.size()));
-      std::vector<ClosestPoint> answers;
-      double seconds = 0;
-      if (paced)
-        seconds = answer_paced(*probe, points, options_of(setting), answers);
-      else
-        answer_all(*probe, points, options_of(setting), answers);
-      row.results.push_back(
-          compare_answers(answers, std::span(workload.exact).first(points.size())));
-      row.results.back().seconds = seconds;
-      row.results.back().pages = model->stats().pages_read;
-      progress_.add(1);
-    }
-    record_.rows.push_back(std::move(row));
-    return {};
-  }
-
-  /// Times the settings that wait for pages, in turn, with one model, after a round that is not
-  /// timed.
-  void measure_times(const Model& model) {
-    for (std::size_t i = 0; i < workloads_.size(); ++i) {
-      std::vector<std::function<void()>> actions;
-      std::vector<ClosestPoint> answers;
-      for (const TradeRow& row : record_.rows)
-        if (row.setting.wait == Wait::kForPages)
-          actions.emplace_back([&, options = options_of(row.setting)] {
-            if (auto probe = Probe::create(model))
-              answer_all(*probe, workloads_[i].points, options, answers);
-          });
-      for (const auto& action : actions) action();
-      const std::vector<double> seconds = median_seconds(actions, kRounds);
-      auto next = seconds.begin();
-      for (TradeRow& row : record_.rows) {
-        TradeResult& result = row.results[i];
-        if (row.setting.wait == Wait::kForPages) result.seconds = *next++;
-        result.ratio_to_exact =
-            result.seconds / static_cast<double>(result.points) /
-            (seconds.front() / static_cast<double>(workloads_[i].points.size()));
-      }
-    }
-  }
-
   const TradeArguments& arguments_;
   Console& console_;
   Progress progress_;
   TradeRecord record_;
-  std::vector<Workload> workloads_;
+  TradeMeasurement measurement_;
   std::optional<OutputFile> page_;
 };
 

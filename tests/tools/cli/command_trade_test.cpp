@@ -132,6 +132,20 @@ TEST_F(CommandTrade, LeavesNoPageBehindIfItFails) {
     EXPECT_FALSE(entry.path().filename().string().starts_with(".planetree")) << entry;
 }
 
+TEST_F(CommandTrade, DoesNotReplaceItsInputs) {
+  write("points.csv", "0,0,1\n");
+  const std::string model = text_of("tree.ptree");
+  const Outcome over_model = run({"trade", "tree.ptree", "--html", "tree.ptree", "--force"});
+  EXPECT_EQ(over_model.status, 2);
+  EXPECT_NE(over_model.errors.find("an input itself"), std::string::npos);
+  EXPECT_EQ(
+      run({"trade", "tree.ptree", "--points", "points.csv", "--html", "points.csv", "--force"})
+          .status,
+      2);
+  EXPECT_EQ(text_of("tree.ptree"), model);
+  EXPECT_EQ(text_of("points.csv"), "0,0,1\n");
+}
+
 TEST_F(CommandTrade, AsksAtThePositionsOfASession) {
   ASSERT_EQ(
       run({"touch", "tree.ptree", "--seconds", "1", "--rate", "50", "--ticks", "ticks.csv"}).status,
