@@ -32,6 +32,19 @@ std::vector<double> ticks_around(const std::vector<double>& decade, double lower
   return {begin == all.begin() ? begin : begin - 1, end == all.end() ? end : end + 1};
 }
 
+/// The fewest ticks between two values that are enough.
+std::vector<double> ticks_within(double lower, double upper) {
+  std::vector<double> ticks;
+  for (const auto& decade : kDecades) {
+    ticks = ticks_around(decade, lower, upper);
+    std::erase_if(ticks, [&](double tick) {
+      return tick < lower * (1 - kSlack) || tick > upper * (1 + kSlack);
+    });
+    if (ticks.size() + 1 >= kMinTicks) break;
+  }
+  return ticks;
+}
+
 /// The narrowest range of ticks around the values, of neither too few nor too many.
 std::vector<double> logarithmic_ticks(double lower, double upper) {
   // Points do not touch the ends.
@@ -102,10 +115,8 @@ PlotAxis PlotAxis::in_units_of(double unit, std::string title, TickText text) co
   axis.least_ = least_ / unit;
   axis.lower_ = lower_ - std::log10(unit);
   axis.upper_ = upper_ - std::log10(unit);
-  for (double power = std::ceil(axis.lower_ - kSlack); power <= axis.upper_ + kSlack; power += 1) {
-    const double tick = std::pow(10.0, power);
+  for (const double tick : ticks_within(std::pow(10.0, axis.lower_), std::pow(10.0, axis.upper_)))
     axis.add_tick(tick, text(tick));
-  }
   return axis;
 }
 

@@ -32,7 +32,7 @@ class PlotAxis {
   /// Ticks at the values 0, 1, 2 and so on. There is at least one.
   static PlotAxis named(std::string title, const std::vector<std::string>& names);
 
-  /// The same logarithmic axis with the ticks of another unit, at powers of ten.
+  /// The same logarithmic axis with the ticks of another unit, between its ends.
   PlotAxis in_units_of(double unit, std::string title, TickText text) const;
 
   const std::string& title() const { return title_; }

@@ -71,6 +71,16 @@ TEST(PlotAxis, ShowsAnotherUnitAtTheSamePlaces) {
     }
   EXPECT_NEAR(edges.place(0.3 / 0.003), axis.place(0.3), 1e-12);
   EXPECT_EQ(edges.place(0), axis.place(0));
+  for (const double span : {1.0, 3.0, 30.0, 1e7})
+    for (const double unit : {1.0, 0.7, 1e-3}) {
+      const PlotAxis other = axis_of({2e-6, 2e-6 * span}).in_units_of(unit, "edges", short_text);
+      EXPECT_GE(other.ticks().size(), 2u) << span << ' ' << unit;
+      EXPECT_LE(other.ticks().size(), 10u) << span << ' ' << unit;
+      for (const PlotTick& tick : other.ticks()) {
+        EXPECT_GE(tick.place, 0);
+        EXPECT_LE(tick.place, 1);
+      }
+    }
 }
 
 TEST(PlotAxis, CanBeSharesOrNames) {
