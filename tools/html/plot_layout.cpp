@@ -9,7 +9,7 @@ namespace planetree::tools {
 namespace {
 
 constexpr double kWidth = 480, kHeight = 330;
-constexpr double kLeft = 58, kRight = 14, kTop = 32, kTopWithUpperAxis = 46, kBottom = 46;
+constexpr double kLeft = 58, kRight = 18, kTop = 32, kTopWithUpperAxis = 46, kBottom = 46;
 
 /// Sizes of the text of narrow and of wide pages, see the page's style.
 struct TextSize {

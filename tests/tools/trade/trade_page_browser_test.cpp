@@ -19,7 +19,11 @@ class TradePageInBrowser : public testing::Test {
     if (!Browser::is_here()) GTEST_SKIP() << Browser::kMissing;
   }
   nlohmann::json examined(const std::string& examination, const BrowserWindow& window = {}) {
-    const std::string html = trade_page(sample_record("</script><b>a\xFF.ptree"), "planetree");
+    return examined(sample_record("</script><b>a\xFF.ptree"), examination, window);
+  }
+  nlohmann::json examined(const TradeRecord& record, const std::string& examination,
+                          const BrowserWindow& window) {
+    const std::string html = trade_page(record, "planetree");
     BrowserVisit visit = Browser::visit(html, examination, window, folder_ / ".");
     for (const std::string& complaint : visit.complaints) ADD_FAILURE() << complaint;
     for (const std::string& request : visit.requests) ADD_FAILURE() << "asks for " << request;
@@ -41,6 +45,28 @@ TEST_F(TradePageInBrowser, FitsWindowsOfAnyWidthInBothThemes) {
       EXPECT_EQ(report["cut"], nlohmann::json::array()) << width;
       EXPECT_EQ(report["faint"], nlohmann::json::array()) << is_dark;
     }
+}
+
+TEST_F(TradePageInBrowser, HasRoomForTheTicksOfAnySpan) {
+  TradeRecord record = sample_record(std::string(200, 'a') + ".ptree");
+  std::erase_if(record.rows, [&](const TradeRow& row) {
+    return row.setting.max_error > 0 && row.setting.max_error < 9e-4 * record.diagonal;
+  });
+  for (const double factor : {1.0, 20.0}) {
+    for (TradeRow& row : record.rows)
+      for (TradeResult& result : row.results) {
+        result.seconds *= factor;
+        result.promised.p50 /= factor;
+        result.promised.p99 /= factor;
+      }
+    for (const int width : {390, 1440}) {
+      const auto report = examined(record, kExamineLayout, {width, false});
+      ASSERT_TRUE(report.is_object());
+      EXPECT_LE(report["scrollWidth"], width);
+      EXPECT_EQ(report["covered"], nlohmann::json::array()) << width;
+      EXPECT_EQ(report["cut"], nlohmann::json::array()) << width;
+    }
+  }
 }
 
 TEST_F(TradePageInBrowser, HasAPointForEachSettingAndARowForEachPoint) {
