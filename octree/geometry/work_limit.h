@@ -97,6 +97,7 @@ class TraversalWork {
 struct WorkUnits {
   static constexpr unsigned kNearBlock = 4;    ///< distances of a block's triangles in double
   static constexpr unsigned kNearbyList = 16;  ///< distances of the triangles of a coherence cache
+  static constexpr unsigned kBlockAngles = 8;  ///< triangles of a block_share(), in a unit
   static constexpr unsigned kSolidAngles =
       2;  ///< solid angles that block_share() leaves out, in a unit
   static constexpr unsigned kFlatFace = 24;        ///< distance from a face too flat for double
@@ -106,7 +107,7 @@ struct WorkUnits {
   static constexpr unsigned kSmallSign = 1;        ///< exact sign in 128 bits
   static constexpr unsigned kMediumSign = 6;       ///< in 384 bits
   static constexpr unsigned kLargeSign = 100;      ///< in 4160 bits
-  static constexpr unsigned kQuadAngle = 24;       ///< solid angle in 113 bits
+  static constexpr unsigned kQuadAngle = 64;       ///< solid angle in 113 bits
   static constexpr unsigned kWidestAngle = 16000;  ///< in 4096 bits
   static constexpr unsigned kWideHeight = 32;      ///< height over a face in 113 bits
   static constexpr unsigned kWideCornerHeight = 64;  ///< the same, times the angle at a corner

@@ -169,6 +169,7 @@ class WindingSum {
   }
 
   void open_block(const BlockView& block, const Proxy& proxy) {
+    if (!limit_.take(block.triangle_count() / WorkUnits::kBlockAngles)) return;
     ++work_.blocks;
     work_.triangles += block.triangle_count();
     const BlockShare sum = block_share(point_, block);

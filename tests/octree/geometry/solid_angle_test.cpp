@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "octree/geometry/work_limit.h"
 #include "tests/octree/support/sample_tree.h"
 
 namespace planetree::octree {
@@ -44,6 +45,15 @@ TEST(WindingShare, ApproachesOneHalfAtTheFace) {
       EXPECT_LT(share.error, 0x1p-40);
     }
   }
+}
+
+TEST(WindingShare, ChargesWideNumbers) {
+  std::uint64_t units = 0;
+  WorkLimit limit(units, WorkLimit::kNone);
+  winding_share({0.5, -0.25, -0.25}, kFace, &limit);
+  EXPECT_EQ(units, 0u);
+  winding_share({0.5, -0x1p-30, -0x1p-30}, kFace, &limit);
+  EXPECT_EQ(units, 64u);
 }
 
 // The quotient is 0 / 0 there.

@@ -98,6 +98,20 @@ TEST(WindingNumber, ErrorBoundHoldsAtAnyWork) {
   }
 }
 
+// A unit holds the solid angles of eight triangles.
+TEST(WindingNumber, ChargesTheTrianglesOfABlock) {
+  Noise noise(5);
+  Soup soup;
+  for (int i = 0; i < 16; ++i)
+    soup.push_back({noise.point(-1, 1), noise.point(-1, 1), noise.point(-1, 1)});
+  Winding winding(soup);
+  EXPECT_TRUE(winding.winding({1.5, 1.5, 2}).complete);
+  EXPECT_EQ(winding.work.triangles, 16u);
+  EXPECT_EQ(winding.work.blocks, 1u);
+  EXPECT_EQ(winding.work.units, 3 * winding.work.nodes + 3);
+  EXPECT_FALSE(winding.winding({1.5, 1.5, 2}, winding.work.units - 1).complete);
+}
+
 // Where every triangle must be evaluated, the error is that of the triangles alone.
 TEST(WindingNumber, IsAccurateWhenAllTrianglesAreEvaluated) {
   // A face of the octahedron is an eighth of the sphere about the origin: 20 faces one way and 16
