@@ -7,11 +7,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "octree/nearest/nearest.h"
 #include "planetree/planetree.h"
 #include "query/answer/closest_point.h"
 #include "query/answer/side.h"
@@ -25,6 +27,7 @@ namespace {
 struct Arguments {
   std::string model;
   std::string part = "distance";
+  std::string at = "box";
   std::size_t queries = 20;
   std::uint32_t max_work = QueryOptions::kRealTimeWork;
 };
@@ -43,6 +46,21 @@ std::vector<Vec3> points_in(const ModelInfo& info, std::size_t count) {
                       at(info.box_lower.y, info.box_upper.y, i % 4 >= 2),
                       at(info.box_lower.z, info.box_upper.z, i % 4 == 3)});
   return points;
+}
+
+// Moves each point to the triangle of a tree that is nearest to it: to a corner, the middle of an
+// edge, the middle of a height, or the nearest point.
+void move_to(const octree::TreeInfo& tree, query::ProbeState& probe, std::vector<Vec3>& points) {
+  const query::Scale& scale = probe.model().geometry.scale;
+  query::PageAccessor accessor(probe.reader(), Wait::kForPages);
+  octree::TraversalStats work;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const octree::NearestAnswer nearest =
+        octree::nearest(tree, scale.in(points[i]), {}, accessor.pages(), work);
+    const auto& [a, b, c] = nearest.corners;
+    const octree::Point places[] = {a, (a + b) * 0.5, (a * 2 + b + c) * 0.25, nearest.point};
+    points[i] = scale.out(places[i % std::size(places)]);
+  }
 }
 
 // Runs a query of limited work. Returns its units.
@@ -73,7 +91,10 @@ int run(const Arguments& arguments) {
   if (!reader) return std::cerr << "work_bench: " << reader.error().text << '\n', 1;
   const auto probe = query::ProbeState::create((*model)->serving(), std::move(*reader));
   probe->coherence().is_on = false;
-  const auto points = points_in((*model)->info(), arguments.queries);
+  auto points = points_in((*model)->info(), arguments.queries);
+  const query::ModelGeometry& geometry = (*model)->geometry();
+  if (arguments.at == "surface") move_to(geometry.tree, *probe, points);
+  if (arguments.at == "caps" && geometry.tree.caps) move_to(geometry.caps, *probe, points);
   for (const Vec3& point : points) units_of(*probe, Wait::kForPages, point, arguments);
   std::uint64_t most = 0;
   for (const Vec3& point : points) {
@@ -97,6 +118,9 @@ int main(int argc, char** argv) {
   app.add_option("model", arguments.model, "File that planetree build wrote")->required();
   app.add_option("--part", arguments.part, "distance, side or all")
       ->check(CLI::IsMember({"distance", "side", "all"}))
+      ->capture_default_str();
+  app.add_option("--at", arguments.at, "Where the points are: box, surface or caps")
+      ->check(CLI::IsMember({"box", "surface", "caps"}))
       ->capture_default_str();
   app.add_option("--queries", arguments.queries, "How many")->capture_default_str();
   app.add_option("--max-work", arguments.max_work, "Limit of each query")->capture_default_str();
