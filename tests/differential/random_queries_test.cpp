@@ -22,6 +22,8 @@ TEST_P(RandomQueries, AreAnsweredRight) {
   EXPECT_EQ(tally.interval, 0u);
   EXPECT_EQ(tally.side, 0u);
   EXPECT_EQ(tally.normal, 0u);
+  EXPECT_EQ(tally.limited, 0u);
+  EXPECT_GT(tally.limited_exact, 0u);
   EXPECT_EQ(tally.first_miss, "");
 }
 

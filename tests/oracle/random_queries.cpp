@@ -8,6 +8,7 @@
 
 #include "tests/oracle/closed_models.h"
 #include "tests/oracle/interval_oracle.h"
+#include "tests/oracle/limited_queries.h"
 #include "tests/oracle/nasty_models.h"
 #include "tests/oracle/winding.h"
 
@@ -53,7 +54,8 @@ class Judge {
       : model_(model),
         intervals_(model.built.triangles()),
         watertight_(model.built.model().info().watertight()),
-        in_frame_(model.built.triangles()) {
+        in_frame_(model.built.triangles()),
+        limited_(model.built.path()) {
     // In the model frame, where the smallest subnormal numbers are rounded away.
     for (Corners& triangle : in_frame_)
       for (Vec3& corner : triangle) corner = in_frame(corner);
@@ -69,9 +71,20 @@ class Judge {
     judge_normal(query, answer, tally);
     if (tally.misses() != before && tally.first_miss.empty())
       tally.first_miss = words(query, answer);
+    judge_limited(query, tally);
   }
 
  private:
+  // Options are drawn from random numbers of their own, so that they do not change the queries.
+  void judge_limited(const Vec3& query, QueryTally& tally) {
+    if (!limited_.agree(query, random_)) {
+      ++tally.limited;
+      if (tally.first_miss.empty())
+        tally.first_miss = std::string(model_.family) + ": " + limited_.last_miss();
+    }
+    tally.limited_exact = limited_.exact();
+  }
+
   Vec3 in_frame(const Vec3& p) const {
     const int exponent = model_.built.scale_exponent();
     return {std::ldexp(p.x, exponent), std::ldexp(p.y, exponent), std::ldexp(p.z, exponent)};
@@ -145,6 +158,8 @@ class Judge {
   IntervalOracle intervals_;
   bool watertight_;
   Soup in_frame_;
+  LimitedQueries limited_;
+  Random random_{1};
 };
 
 }  // namespace
@@ -190,11 +205,13 @@ Vec3 QueriedModel::query() {
 QueryTally& QueryTally::operator+=(const QueryTally& other) {
   queries += other.queries;
   sides += other.sides;
+  limited_exact += other.limited_exact;
   normals += other.normals;
   not_finite += other.not_finite;
   interval += other.interval;
   side += other.side;
   normal += other.normal;
+  limited += other.limited;
   if (first_miss.empty()) first_miss = other.first_miss;
   return *this;
 }

@@ -14,19 +14,11 @@
 
 #include "planetree/model.h"
 #include "planetree/probe.h"
+#include "tests/query/least_memory.h"
 #include "tests/query/query_costs.h"
 
 namespace planetree::query {
 namespace {
-
-// The minimum budget that the model opens with, as the error names it.
-std::uint64_t min_budget(const std::string& file, OpenOptions options) {
-  options.memory_budget_bytes = 1;
-  const auto refused = Model::open(file, options);
-  const std::string text = refused ? "" : refused.error().text;
-  const std::size_t at = text.find("at least ");
-  return at == std::string::npos ? 0 : std::strtoull(&text[at + 9], nullptr, 10);
-}
 
 std::vector<Vec3> random_points(const ModelInfo& info, std::size_t count) {
   std::mt19937_64 random(7);
@@ -51,7 +43,7 @@ bool report(const char* what, std::uint64_t count) {
 int run(const std::string& file, std::uint64_t queries) {
   OpenOptions options;
   options.max_probes = 1;
-  options.memory_budget_bytes = min_budget(file, options);
+  options.memory_budget_bytes = least_memory_bytes(file, options);
   std::vector<Vec3> points(100003);
   const std::uint64_t resident = resident_memory_bytes();
   const auto model = Model::open(file, options);

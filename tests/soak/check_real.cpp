@@ -15,7 +15,6 @@
 #include <string_view>
 #include <vector>
 
-#include "octree/builder/mesh/mesh_reader.h"
 #include "octree/builder/tree_builder.h"
 #include "octree/geometry/triangle_distance.h"
 #include "planetree/planetree.h"
@@ -24,6 +23,7 @@
 #include "tests/oracle/random.h"
 #include "tests/oracle/winding.h"
 #include "tests/soak/cgal_side.h"
+#include "tests/soak/mesh_triangles.h"
 #include "tests/soak/paged_answers.h"
 #include "tests/storage/system/temporary_directory.h"
 
@@ -40,20 +40,6 @@ constexpr std::size_t kTieChecks = 20;   // against every triangle
 constexpr double kAllowedShare = 1e-12;  // maximum error / diagonal
 constexpr std::uint64_t kLargeBudgetBytes = std::uint64_t{4} << 30;
 constexpr std::uint64_t kProgramBytes = std::uint64_t{40} << 20;
-
-// The triangles of a mesh, by index. Skipped triangles are an error.
-class MeshTriangles final : public octree::TriangleSink {
- public:
-  Result<void> triangle(std::uint64_t index, const std::array<Vec3, 3>& corners) override {
-    if (index != triangles.size()) give_up("mesh", "has skipped triangles");
-    triangles.push_back(corners);
-    return {};
-  }
-  void skipped(std::uint64_t, std::uint64_t, const octree::SkippedRecord&) override {}
-  Result<void> progress(std::uint64_t, std::uint64_t) override { return {}; }
-
-  std::vector<Corners> triangles;
-};
 
 class Silent final : public octree::BuildProgress {
   Result<void> progress(octree::BuildPhase, std::uint64_t, std::uint64_t) override { return {}; }
@@ -121,9 +107,7 @@ class MeshCheck {
   explicit MeshCheck(const fs::path& mesh) : mesh_(mesh), tree_(folder_ / "mesh.ptree") {
     Silent silent;
     need(octree::build_tree(mesh, tree_, {}, silent), mesh.c_str());
-    MeshTriangles read;
-    need(octree::read_mesh(mesh, read), mesh.c_str());
-    triangles_ = std::move(read.triangles);
+    triangles_ = triangles_of(mesh);
     const Model model = need(Model::open(tree_), "open");
     info_ = model.info();
     queries_ = make_queries(info_, triangles_);

@@ -19,7 +19,7 @@
 #include "planetree/model.h"
 #include "planetree/probe.h"
 #include "query/model_state.h"
-#include "tests/query/answer_bits.h"
+#include "tests/oracle/limited_queries.h"
 #include "tools/session/session_path.h"
 
 namespace planetree::oracle {
@@ -85,13 +85,6 @@ class Rival {
   std::atomic<bool> stops_{false};
   std::thread thread_;  // last: it uses the members above
 };
-
-bool agrees(const ClosestPoint& answer, const ClosestPoint& exact) {
-  if (answer.status == Status::kExact) return bits_of(answer) == bits_of(exact);
-  const bool side = answer.side == Side::kUnknown || answer.side == exact.side;
-  return answer.status == Status::kDegraded && side && answer.lower <= exact.upper &&
-         answer.upper >= exact.lower && answer.distance >= exact.lower;
-}
 
 // Makes no queries if the model does not open with so little memory.
 Count check(const std::string& file, std::uint64_t budget_bytes, Health health,
