@@ -12,10 +12,12 @@ constexpr const char* kTriangles = "200K";
 constexpr const char* kTriangles = "20K";  // builds are slow here
 #endif
 
-TEST(KilledBuild, LeavesTheOldOrTheCompleteFileAndAtMostACheckpoint) {
+class KilledBuild : public testing::TestWithParam<const char*> {};
+
+TEST_P(KilledBuild, LeavesTheOldOrTheCompleteFileAndAtMostACheckpoint) {
   KilledBuilds builds(PLANETREE_COMMAND, 1);
   if (!builds.has_unnamed_files()) GTEST_SKIP() << "this file system has no files without names";
-  ASSERT_EQ(builds.prepare(kTriangles), "");
+  ASSERT_EQ(builds.prepare(kTriangles, GetParam()), "");
   constexpr unsigned kCount = 20;
   unsigned killed = 0, resumable = 0;
   for (unsigned i = 0; i < kCount; ++i) {
@@ -28,6 +30,8 @@ TEST(KilledBuild, LeavesTheOldOrTheCompleteFileAndAtMostACheckpoint) {
   EXPECT_GE(killed, kCount / 4) << "of the others were done before";
   EXPECT_GE(resumable, 1u) << "had kept something";
 }
+
+INSTANTIATE_TEST_SUITE_P(Holes, KilledBuild, testing::Values("0", "100"));
 #endif
 
 }  // namespace

@@ -38,9 +38,9 @@ int status_of(pid_t child) {
 KilledBuilds::KilledBuilds(fs::path command, unsigned seed)
     : command_(std::move(command)), random_(seed) {}
 
-std::string KilledBuilds::prepare(const std::string& triangles) {
+std::string KilledBuilds::prepare(const std::string& triangles, const std::string& holes) {
   if (status_of(spawn(command_, {"generate", (models_ / "model.ply").string(), "--triangles",
-                                 triangles, "--quiet"})) != 0)
+                                 triangles, "--holes", holes, "--quiet"})) != 0)
     return "the model cannot be generated";
   for (const bool resume : {false, true}) {
     const auto started = std::chrono::steady_clock::now();

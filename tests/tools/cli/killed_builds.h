@@ -21,7 +21,9 @@ class KilledBuilds {
 
   /// Generates the model and builds it undisturbed, with and without --resume. Returns what went
   /// wrong, empty if nothing.
-  std::string prepare(const std::string& triangles);
+  ///
+  /// holes  number of triangles to leave out
+  std::string prepare(const std::string& triangles, const std::string& holes);
 
   /// Whether the file system has files without names; on others a kill may leave a file behind.
   bool has_unnamed_files() const;
