@@ -76,7 +76,7 @@ class Collection {
 };
 
 void collect(std::size_t queries, Collection& collection) {
-  const std::size_t share = (queries + kQueriedModels) / (kQueriedModels + 1);
+  const std::size_t share = (queries + kQueriedModels + 1) / (kQueriedModels + 2);
   for (std::size_t number = 0; number < kQueriedModels; ++number) {
     QueriedModel model(number);
     collection.add_file(model.built.path());
@@ -86,12 +86,21 @@ void collect(std::size_t queries, Collection& collection) {
       collection.add(model.built.probe().contains(query));
     }
   }
-  // A tree of many levels.
-  BuiltModel large(ball(6), {4096, 1 << 22, 1});
-  collection.add_file(large.path());
-  Random random(7);
-  for (std::size_t i = 0; i < share; ++i)
-    collection.add(large.closest_point(random.in_cube() * 1.5));
+  // Trees of many levels: of a closed surface, and of one with holes.
+  constexpr std::size_t kApart = 100;
+  Soup closed = ball(6), open;
+  for (std::size_t i = 0; i < closed.size(); ++i)
+    if (i % kApart != 0) open.push_back(closed[i]);
+  for (const Soup& soup : {closed, open}) {
+    BuiltModel large(soup, {4096, 1 << 22, 1});
+    collection.add_file(large.path());
+    Random random(7);
+    for (std::size_t i = 0; i < share; ++i) {
+      const Vec3 query = random.in_cube() * 1.5;
+      collection.add(large.closest_point(query));
+      collection.add(large.probe().contains(query));
+    }
+  }
 }
 
 std::string output_of(const std::string& command) {
