@@ -64,14 +64,23 @@ class EdgeTable {
     }
   }
 
-  std::vector<LeftOver> left_over() const {
-    std::vector<LeftOver> found;
-    for (const Entry& entry : entries_)
-      if (entry.net != 0) {
-        const Ends ends = ends_of(entry);
-        found.push_back({{hash_of(ends), 0}, ends, entry.net});
-      }
-    return found;
+  // The edges that are not balanced, as records in the order of their keys. All edges of a soup are
+  // left over, so that only as much memory is taken as the records need.
+  std::vector<std::byte> left_over() const {
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> order;  // hash, position
+    order.reserve(static_cast<std::size_t>(std::count_if(
+        entries_.begin(), entries_.end(), [](const Entry& entry) { return entry.net != 0; })));
+    for (std::uint32_t at = 0; at < entries_.size(); ++at)
+      if (entries_[at].net != 0) order.emplace_back(hash_of(ends_of(entries_[at])), at);
+    std::sort(order.begin(), order.end());
+    std::vector<std::byte> records(order.size() * sizeof(LeftOver));
+    std::byte* to = records.data();
+    for (const auto& [hash, at] : order) {
+      const LeftOver edge{{hash, 0}, ends_of(entries_[at]), entries_[at].net};
+      std::memcpy(to, &edge, sizeof edge);
+      to += sizeof edge;
+    }
+    return records;
   }
 
  private:
@@ -154,12 +163,7 @@ EdgeCensus::EdgeCensus(std::uint64_t held_bytes, storage::SpillFile& file)
     : left_over_(sizeof(LeftOver), held_bytes, file) {}
 
 Result<void> EdgeCensus::add(const Triangles& chunk) {
-  std::vector<LeftOver> edges = EdgeTable(chunk).left_over();
-  std::sort(edges.begin(), edges.end(),
-            [](const LeftOver& a, const LeftOver& b) { return a.key < b.key; });
-  std::vector<std::byte> records(edges.size() * sizeof(LeftOver));
-  if (!edges.empty()) std::memcpy(records.data(), edges.data(), records.size());
-  const auto added = left_over_.add(std::move(records));
+  const auto added = left_over_.add(EdgeTable(chunk).left_over());
   if (!added) return added.error();
   return {};
 }
