@@ -45,6 +45,8 @@ class CapTree {
   CapWork work() const { return {count_, area_, runs_.extents()}; }
 
   std::uint64_t count() const { return count_; }
+  /// The caps, or null if there are none.
+  const TriangleRuns* runs() const { return count_ > 0 ? &runs_ : nullptr; }
 
   /// Builds the tree, and adds the caps to the sectors of the mask.
   /// max_triangles  maximum of a chunk.

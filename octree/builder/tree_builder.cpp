@@ -252,8 +252,8 @@ Result<void> TreeBuild::cut_out_part() {
 Result<void> TreeBuild::build_chunks() {
   sectors_.emplace(model_.frame.core_lower(), region(), model_.cut.winding, model_.frame.float64,
                    memory_.visitor_bytes, files_.triangles());
-  if (const auto divided =
-          sectors_->divide(runs(), model_.frame.has_strays(), seams_.sector_triangles);
+  if (const auto divided = sectors_->divide(runs(), caps_->runs(), model_.frame.has_strays(),
+                                            seams_.sector_triangles);
       !divided)
     return divided;
   if (const auto built = caps_->build(*sectors_, seams_.chunk_triangles); !built) return built;

@@ -20,40 +20,40 @@ constexpr double kTogether = 0.875;
 
 }  // namespace
 
-Result<void> MaskSectors::divide(const TriangleRuns& runs, bool has_strays,
-                                 std::uint64_t max_triangles) {
+Result<void> MaskSectors::divide(const TriangleRuns& runs, const TriangleRuns* caps,
+                                 bool has_strays, std::uint64_t max_triangles) {
   auto end = has_strays ? runs.cut(kStrayCode) : Result<TriangleRuns::Cut>(runs.end());
   if (!end) return end.error();
-  const std::uint64_t in_core = TriangleRuns::count(runs.begin(), *end);
-  return divide(0, {runs.begin(), *std::move(end), in_core}, runs, max_triangles);
+  Centres centres;
+  centres.add({&runs, runs.begin(), *std::move(end)});
+  if (caps) centres.add({caps, caps->begin(), caps->end()});
+  return divide(0, centres, max_triangles);
 }
 
-Result<void> MaskSectors::divide(std::size_t at, const Stretch& stretch, const TriangleRuns& runs,
+Result<void> MaskSectors::divide(std::size_t at, const Centres& centres,
                                  std::uint64_t max_triangles) {
   const GridCell cell = sectors_[at].cell;
-  if (stretch.size <= max_triangles || cell.level == kLevels || !grid_.has_part_of(cell)) return {};
-  const auto separated = separates(cell, stretch, runs);
+  if (centres.size <= max_triangles || cell.level == kLevels || !grid_.has_part_of(cell)) return {};
+  const auto separated = separates(cell, centres);
   if (!separated) return separated.error();
   if (!*separated) return {};
-  const auto octants = octants_of(cell, stretch, runs);
+  const auto octants = octants_of(cell, centres);
   if (!octants) return octants.error();
   const std::size_t first = sectors_.size();
   sectors_[at].first_octant = static_cast<std::uint32_t>(first);
   for (unsigned octant = 0; octant < 8; ++octant) sectors_.push_back({cell.child(octant)});
   for (unsigned octant = 0; octant < 8; ++octant)
-    if (const auto divided = divide(first + octant, (*octants)[octant], runs, max_triangles);
-        !divided)
+    if (const auto divided = divide(first + octant, (*octants)[octant], max_triangles); !divided)
       return divided;
   return {};
 }
 
 // Follows the octants with most centres.
-Result<bool> MaskSectors::separates(GridCell cell, const Stretch& stretch,
-                                    const TriangleRuns& runs) const {
-  const auto few = static_cast<std::uint64_t>(kTogether * static_cast<double>(stretch.size));
-  Stretch most = stretch;
+Result<bool> MaskSectors::separates(GridCell cell, const Centres& centres) const {
+  const auto few = static_cast<std::uint64_t>(kTogether * static_cast<double>(centres.size));
+  Centres most = centres;
   for (unsigned step = 0; step < kFutileSteps && cell.level < kLevels; ++step) {
-    auto octants = octants_of(cell, most, runs);
+    auto octants = octants_of(cell, most);
     if (!octants) return octants.error();
     unsigned greatest = 0;
     for (unsigned octant = 0; octant < 8; ++octant) {
@@ -68,18 +68,19 @@ Result<bool> MaskSectors::separates(GridCell cell, const Stretch& stretch,
   return false;
 }
 
-Result<std::array<MaskSectors::Stretch, 8>> MaskSectors::octants_of(
-    const GridCell& cell, const Stretch& stretch, const TriangleRuns& runs) const {
-  std::array<Stretch, 8> octants;
-  octants[0].from = stretch.from;
-  for (unsigned octant = 1; octant < 8; ++octant) {
-    auto cut = runs.cut(cell.child(octant).first_code());
-    if (!cut) return cut.error();
-    octants[octant - 1].to = *cut;
-    octants[octant].from = *std::move(cut);
+Result<std::array<MaskSectors::Centres, 8>> MaskSectors::octants_of(const GridCell& cell,
+                                                                    const Centres& centres) {
+  std::array<Centres, 8> octants;
+  for (const Stretch& stretch : centres.stretches) {
+    TriangleRuns::Cut from = stretch.from;
+    for (unsigned octant = 0; octant < 8; ++octant) {
+      auto to = octant < 7 ? stretch.runs->cut(cell.child(octant + 1).first_code())
+                           : Result<TriangleRuns::Cut>(stretch.to);
+      if (!to) return to.error();
+      octants[octant].add({stretch.runs, std::move(from), *to});
+      from = *std::move(to);
+    }
   }
-  octants[7].to = stretch.to;
-  for (Stretch& octant : octants) octant.size = TriangleRuns::count(octant.from, octant.to);
   return octants;
 }
 

@@ -17,8 +17,8 @@ namespace planetree::octree {
 /// done for each sector by itself. The mask depends on this number.
 inline constexpr std::uint64_t kSectorTriangles = 1 << 18;
 
-/// The sectors of a mask: the octree's root, divided until few triangles have the centres of their
-/// boxes in a cell. The mask is built for each sector by itself.
+/// The sectors of a mask: the octree's root, divided until few triangles and caps have the centres
+/// of their boxes in a cell. The mask is built for each sector by itself.
 ///
 /// threads  any number may add parts of the model; then any number may read sectors.
 class MaskSectors {
@@ -60,8 +60,9 @@ class MaskSectors {
 
   /// Divides the root into sectors. Call it before anything else.
   ///
+  /// caps        null if there are none
   /// has_strays  some triangle may be stray
-  Result<void> divide(const TriangleRuns& runs, bool has_strays,
+  Result<void> divide(const TriangleRuns& runs, const TriangleRuns* caps, bool has_strays,
                       std::uint64_t max_triangles = kSectorTriangles);
 
   /// Adds a part of the model, each triangle once. Returns what was added.
@@ -90,18 +91,27 @@ class MaskSectors {
   Result<Triangles> read(std::size_t sector, const TriangleRuns& runs) const;
 
  private:
+  /// Triangles, or caps, with their centres in a cell.
   struct Stretch {
+    const TriangleRuns* runs = nullptr;
     TriangleRuns::Cut from, to;
+  };
+  /// Both of a cell.
+  struct Centres {
+    std::vector<Stretch> stretches;
     std::uint64_t size = 0;
+
+    void add(Stretch stretch) {
+      size += TriangleRuns::count(stretch.from, stretch.to);
+      stretches.push_back(std::move(stretch));
+    }
   };
   class Visit;
 
-  Result<void> divide(std::size_t at, const Stretch& stretch, const TriangleRuns& runs,
-                      std::uint64_t max_triangles);
-  /// Whether division of a cell separates the centres of its triangles.
-  Result<bool> separates(GridCell cell, const Stretch& stretch, const TriangleRuns& runs) const;
-  Result<std::array<Stretch, 8>> octants_of(const GridCell& cell, const Stretch& stretch,
-                                            const TriangleRuns& runs) const;
+  Result<void> divide(std::size_t at, const Centres& centres, std::uint64_t max_triangles);
+  /// Whether division of a cell separates the centres in it.
+  Result<bool> separates(GridCell cell, const Centres& centres) const;
+  static Result<std::array<Centres, 8>> octants_of(const GridCell& cell, const Centres& centres);
   Triangles joined(const Triangles& own, const Triangles& visitors, std::size_t sector) const;
   void sum_up(const Part& part);
   std::size_t sector_of_code(std::uint64_t code) const;

@@ -117,7 +117,7 @@ TEST(MaskLists, AreAbsentAtSectorRoots) {
   RegionCut cut(tree.mesh.frame, {}, nullptr);
   ASSERT_TRUE(cut.add(tree.mesh));
   MaskSectors sectors(tree.mesh.lower(), {}, cut.found().winding, true, 1 << 20, spill_file());
-  ASSERT_TRUE(sectors.divide(*tree.runs, false, 20) && sectors.add(tree.mesh));
+  ASSERT_TRUE(sectors.divide(*tree.runs, nullptr, false, 20) && sectors.add(tree.mesh));
   std::mutex mutex;
   std::size_t roots = 0;
   const auto above = build_mask(
@@ -142,7 +142,7 @@ TEST(MaskLists, ArePresentInAMaskOfOneCell) {
   RegionCut cut(tree.mesh.frame, {}, nullptr);
   ASSERT_TRUE(cut.add(tree.mesh));
   MaskSectors sectors(tree.mesh.lower(), {}, cut.found().winding, false, 1 << 20, spill_file());
-  ASSERT_TRUE(sectors.divide(*tree.runs, false) && sectors.add(tree.mesh));
+  ASSERT_TRUE(sectors.divide(*tree.runs, nullptr, false) && sectors.add(tree.mesh));
   BuiltMask mask(4096, false, spill_file());
   ASSERT_TRUE(mask.build(sectors, *tree.runs, tree.tree.get(),
                          [](std::uint32_t, const BuiltSector&) { return Result<void>(); }));

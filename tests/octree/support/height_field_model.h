@@ -25,7 +25,7 @@ struct HeightFieldModel {
     if (!cut.add(tree.mesh)) std::abort();
     MaskSectors sectors(tree.mesh.lower(), {}, cut.found().winding, tree.shape.float64, 1 << 20,
                         spill_file());
-    if (!sectors.divide(*tree.runs, false, 2000) || !sectors.add(tree.mesh) ||
+    if (!sectors.divide(*tree.runs, nullptr, false, 2000) || !sectors.add(tree.mesh) ||
         !mask.build(sectors, *tree.runs, tree.tree.get(),
                     [](std::uint32_t, const BuiltSector&) { return Result<void>(); }))
       std::abort();

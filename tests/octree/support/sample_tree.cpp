@@ -119,7 +119,8 @@ MaskTree mask_of(const SampleMesh& mesh, std::uint64_t most, const BuiltTree* tr
   if (!cut.add(mesh)) std::abort();
   MaskSectors sectors(mesh.frame.core_lower(), {}, cut.found().winding, mesh.float64(), 1000,
                       spill_file());
-  if (!sectors.divide(*runs, mesh.frame.stray_count > 0, most) || !sectors.add(mesh)) std::abort();
+  if (!sectors.divide(*runs, nullptr, mesh.frame.stray_count > 0, most) || !sectors.add(mesh))
+    std::abort();
   std::mutex mutex;
   std::map<std::size_t, MaskTree> parts;
   MaskTree whole = *build_mask(

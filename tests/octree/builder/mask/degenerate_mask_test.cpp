@@ -23,7 +23,7 @@ Soup degenerate(std::string_view kind, std::uint32_t triangles) {
 std::size_t sector_count(const SampleMesh& mesh, std::uint64_t max_triangles) {
   const auto runs = runs_of(mesh);
   MaskSectors sectors(mesh.lower(), {}, 0, mesh.float64(), 2000, spill_file());
-  EXPECT_TRUE(sectors.divide(*runs, false, max_triangles));
+  EXPECT_TRUE(sectors.divide(*runs, nullptr, false, max_triangles));
   return sectors.all().size();
 }
 
@@ -97,7 +97,7 @@ TEST(MaskSectors, SayHowManyOfThemATriangleIsIn) {
     const SampleMesh mesh = store(soup);
     const auto runs = runs_of(mesh);
     MaskSectors sectors(mesh.lower(), {}, 0, mesh.float64(), 2000, spill_file());
-    EXPECT_TRUE(sectors.divide(*runs, false, mesh.size() / 4));
+    EXPECT_TRUE(sectors.divide(*runs, nullptr, false, mesh.size() / 4));
     EXPECT_TRUE(sectors.add(mesh));
     return sectors.spread(*runs);
   };

@@ -152,7 +152,7 @@ TEST_F(FramesAfterReadErrors, FailTheMaskBuild) {
   RegionCut cut(sample.mesh.frame, {}, nullptr);
   ASSERT_TRUE(cut.add(sample.mesh));
   MaskSectors sectors(sample.mesh.lower(), {}, cut.found().winding, false, 1 << 20, spill_file());
-  ASSERT_TRUE(sectors.divide(*sample.runs, false, 300) && sectors.add(sample.mesh));
+  ASSERT_TRUE(sectors.divide(*sample.runs, nullptr, false, 300) && sectors.add(sample.mesh));
   std::mutex mutex;
   std::size_t taken = 0;
   const auto build = [&] {

@@ -89,6 +89,20 @@ TEST(Chunks, DoNotDependOnTheRuns) {
   EXPECT_EQ(sizes[0], sizes[2]);
 }
 
+// With each triangle there as a cap too, a sector holds half as many of them.
+TEST(MaskSectors, AreDividedByTrianglesAndCaps) {
+  const SampleMesh mesh = store(sphere(4));
+  const auto runs = runs_of(mesh, 200), caps = runs_of(mesh, 300);
+  MaskSectors alone(mesh.lower(), {}, 0, mesh.float64(), 2000, spill_file());
+  MaskSectors with_caps(mesh.lower(), {}, 0, mesh.float64(), 2000, spill_file());
+  ASSERT_TRUE(alone.divide(*runs, nullptr, false, 40));
+  ASSERT_TRUE(with_caps.divide(*runs, caps.get(), false, 80));
+  EXPECT_GT(alone.all().size(), 20u);
+  ASSERT_EQ(with_caps.all().size(), alone.all().size());
+  for (std::size_t at = 0; at < alone.all().size(); ++at)
+    EXPECT_EQ(with_caps.all()[at].first_octant, alone.all()[at].first_octant);
+}
+
 // Compares the triangles read for each sector with a geometric test that shares no code with it.
 TEST(MaskSectors, ReadAllTrianglesThatTouchThem) {
   for (const Soup& soup : {grains(200, 0.3), sphere(4), box({0, 0, 0}, {1, 1, 1}, 9)}) {
@@ -96,7 +110,7 @@ TEST(MaskSectors, ReadAllTrianglesThatTouchThem) {
     const Surface surface(mesh);
     const auto runs = runs_of(mesh, 200);
     MaskSectors sectors(mesh.lower(), {}, 0, mesh.float64(), 2000, spill_file());
-    ASSERT_TRUE(sectors.divide(*runs, false, 40));
+    ASSERT_TRUE(sectors.divide(*runs, nullptr, false, 40));
     ASSERT_TRUE(sectors.add(mesh));
     std::size_t undivided = 0;
     for (std::size_t at = 0; at < sectors.all().size(); ++at) {
