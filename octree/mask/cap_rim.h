@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <vector>
+#include <memory>
+#include <span>
 
 #include "octree/traversal/tree_view.h"
 
@@ -49,12 +51,19 @@ class CapRim {
   };
   struct Edge {
     Box box;
-    double weight = 0;  ///< length times the number of times that the rim traverses it
+    double weight;  ///< length times the number of times that the rim traverses it
   };
-  void find_edges(const std::vector<Triangle>& caps);
+  struct Space;
+  struct Free {
+    void operator()(Space* space) const noexcept;
+  };
+  void find_edges();
 
-  std::vector<Box> caps_;
-  std::vector<Edge> edges_;
+  // One block, which the system gets back when a model has been opened: many small allocations
+  // would stay beside the model's budget.
+  std::unique_ptr<Space, Free> space_;
+  std::span<const Box> caps_;
+  std::span<const Edge> edges_;
 };
 
 }  // namespace planetree::octree

@@ -10,6 +10,7 @@
 #include <mutex>
 #include <thread>
 
+#include "octree/mask/cap_rim.h"
 #include "planetree/probe.h"
 #include "tests/cache/allocation_count.h"
 #include "tests/query/call_trap.h"
@@ -75,6 +76,20 @@ TEST_F(QueryPath, DoesNotAllocateWhileItFetches) {
   query_everything(probe);
   EXPECT_EQ(allocation_count(), allocations);
   EXPECT_GT(model.stats().pages_evicted, 1000u);
+}
+
+// It is read when a model is opened, besides the model's budget.
+TEST_F(QueryPath, TheRimOfCapsTakesOneAllocation) {
+  const octree::SampleTree caps = octree::build_sample(octree::scattered(300, 0.3), 4096, 0, true);
+  octree::SamplePages pages(caps);
+  const octree::TreeInfo info = octree::tree_info(caps);
+  octree::CapRim().read(info, pages.reader());  // decodes the pages
+  octree::CapRim rim;
+  const std::uint64_t allocations = allocation_count();
+  rim.read(info, pages.reader());
+  EXPECT_EQ(allocation_count(), allocations + 1);
+  EXPECT_EQ(rim.caps(), 300u);
+  EXPECT_EQ(rim.edges(), 900u);
 }
 
 // Tests that trap calls run on a thread of their own, because a trap cannot be removed.
