@@ -20,15 +20,28 @@ struct Arguments {
   std::string workload = "uniform";
   std::string part = "distance";
   std::size_t queries = 2000;
+  double max_error = 0;  // share of the diagonal
+  std::uint32_t max_work = QueryOptions::kNoLimit;
+  bool never_wait = false;
 };
 
-double query_all(Probe& probe, const std::vector<Vec3>& points, const std::string& part) {
+QueryOptions options_of(const Arguments& arguments, const Box& box) {
+  QueryOptions options;
+  options.parts = arguments.part == "all" ? kAllParts : kDistance;
+  options.max_error = arguments.max_error * box.diagonal();
+  options.max_work = arguments.max_work;
+  options.wait = arguments.never_wait ? Wait::kNever : Wait::kForPages;
+  return options;
+}
+
+double query_all(Probe& probe, const std::vector<Vec3>& points, bool side_alone,
+                 const QueryOptions& options) {
   double sum = 0;
   for (const Vec3& point : points)
-    if (part == "side")
-      sum += probe.contains(point).side == Side::kInside ? 1 : 0;
+    if (side_alone)
+      sum += probe.contains(point, options).side == Side::kInside ? 1 : 0;
     else
-      sum += probe.closest_point(point, {.parts = part == "all" ? kAllParts : kDistance}).distance;
+      sum += probe.closest_point(point, options).distance;
   return sum;
 }
 
@@ -42,10 +55,13 @@ int run(const Arguments& arguments) {
   for (const Workload workload : kWorkloads) {
     if (name_of(workload) != arguments.workload) continue;
     const auto points = make_queries(workload, box, surface, arguments.queries, 1);
-    query_all(*probe, points, arguments.part);
+    const QueryOptions options = options_of(arguments, box);
+    const bool side_alone = arguments.part == "side";
+    query_all(*probe, points, side_alone, {.parts = options.parts});
+    query_all(*probe, points, side_alone, options);
     CALLGRIND_START_INSTRUMENTATION;
     CALLGRIND_ZERO_STATS;
-    const double sum = query_all(*probe, points, arguments.part);
+    const double sum = query_all(*probe, points, side_alone, options);
     CALLGRIND_STOP_INSTRUMENTATION;
     fmt::print("{:.17g}\n", sum);
     return 0;
@@ -67,6 +83,10 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember({"distance", "side", "all"}))
       ->capture_default_str();
   app.add_option("--queries", arguments.queries, "How many")->capture_default_str();
+  app.add_option("--max-error", arguments.max_error, "Allowed error, as a share of the diagonal")
+      ->capture_default_str();
+  app.add_option("--max-work", arguments.max_work, "Maximum units of work of a query");
+  app.add_flag("--never-wait", arguments.never_wait, "Real-time queries; all pages are in memory");
   CLI11_PARSE(app, argc, argv);
   return planetree::bench::run(arguments);
 }
