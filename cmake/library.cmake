@@ -19,9 +19,9 @@ list(TRANSFORM planetree_headers PREPEND ${PROJECT_SOURCE_DIR}/include/planetree
 
 set(planetree_library_layers
   error storage_system storage_file storage_spill cache
-  geometry page traversal nearest winding mask
+  geometry page field traversal nearest winding mask
   builder_job builder_mesh_stream builder_mesh builder_sort builder_surface builder_tree
-  builder_mask builder
+  builder_mask builder_field builder
   query_file query_answer query_serve query)
 
 function(planetree_add_library name)

@@ -10,6 +10,8 @@
 #include "octree/geometry/fp_environment.h"
 #include "octree/geometry/octcode.h"
 #include "octree/geometry/startup_check.h"
+#include "query/file/field_loading.h"
+#include "query/file/page_decoding.h"
 #include "query/model_state.h"
 #include "query/probe_state.h"
 #include "query/serve/page_accessor.h"
@@ -52,9 +54,10 @@ ModelInfo describe(const storage::PageFile& file) {
   info.section_bytes.headers = 2 * sizeof header;
   info.section_bytes.page_table = file.entries().size_bytes();
   for (std::uint32_t page = 0; page < header.page_count; ++page)
-    (page < header.first_cap_page()    ? info.section_bytes.distance_pages
-     : page < header.first_mask_page() ? info.section_bytes.cap_pages
-                                       : info.section_bytes.mask_pages) +=
+    (page < header.first_cap_page()     ? info.section_bytes.distance_pages
+     : page < header.first_field_page() ? info.section_bytes.cap_pages
+     : page < header.first_mask_page()  ? info.section_bytes.field_pages
+                                        : info.section_bytes.mask_pages) +=
         file.entries()[page].stored_bytes;
   info.content_id[0] = header.content_id[0];
   info.content_id[1] = header.content_id[1];
@@ -103,6 +106,7 @@ Pager::Limits limits_of(const storage::FileHeader& header, const OpenOptions& op
   if (header.model.mask_page_count > 0)
     limits.arena.side_grid_bytes = octree::SideGrid::bytes(header.model.triangle_count);
   if (header.model.cap_count > 0) limits.arena.side_grid_bytes += octree::CapGrid::kBytes;
+  limits.arena.field_bytes = field_shape(header.model).bytes();
   limits.arena.page_trace_capacity = options.page_trace_capacity;
   limits.arena.page_count = header.page_count;
   return limits;
@@ -136,6 +140,16 @@ Result<void> ModelState::fill_side_grid() {
   geometry.side_grid.fill(geometry.mask, geometry.tree, geometry.cap_grid,
                           geometry.region.has_walls(), geometry.scale.exponent(), accessor.pages(),
                           memory);
+  return {};
+}
+
+Result<void> ModelState::fill_field() {
+  auto field = load_field(pager_->file(), serving_->arena.field);
+  if (!field) return field.error();
+  field_damaged_ = field->is_damaged;
+  ModelGeometry& geometry = serving_->geometry;
+  geometry.field.fill(field_shape(pager_->file().header().model), field->points,
+                      geometry.tree.has_strays || geometry.region.has_walls());
   return {};
 }
 
@@ -181,6 +195,7 @@ Result<std::unique_ptr<ModelState>> ModelState::open(const std::filesystem::path
   try {
     std::unique_ptr<ModelState> state(new ModelState(std::move(*pager)));
     if (const auto filled = state->fill_side_grid(); !filled) return filled.error();
+    if (const auto filled = state->fill_field(); !filled) return filled.error();
     if (const auto started = state->start_threads(options, seams); !started) return started.error();
     return state;
   } catch (const std::bad_alloc&) {
@@ -238,6 +253,7 @@ Stats ModelState::stats() const noexcept {
   stats.table_bytes = cache.table_bytes + cache.reserved_bytes;
   stats.budget_bytes = cache.budget_bytes;
   stats.locked_bytes = pager_->locked_bytes();
+  stats.field_damaged = field_damaged_;
   stats.header_copy_damaged = pager_->file().header_copy_damaged();
   return stats;
 }

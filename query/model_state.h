@@ -56,6 +56,7 @@ class ModelState {
  private:
   explicit ModelState(std::unique_ptr<Pager> pager);
   Result<void> fill_side_grid();
+  Result<void> fill_field();
   Result<void> start_threads(const OpenOptions& options, const ModelSeams& seams);
 
   struct Destroy {  // does not free the memory, which is the arena's
@@ -66,6 +67,7 @@ class ModelState {
   std::unique_ptr<Pager> pager_;
   ModelInfo info_;
   std::unique_ptr<ServingModel, Destroy> serving_;
+  bool field_damaged_ = false;
   std::vector<std::unique_ptr<ProbeState>> batch_probes_;
   std::unique_ptr<BatchThreads> batch_threads_;
   std::unique_ptr<FetchThreads> fetch_threads_;

@@ -92,14 +92,15 @@ class BuildInput {
 
 /// Phases of a build, in order. Each comment names the unit of progress.
 enum class BuildPhase : std::uint8_t {
-  kResuming,      ///< checking the checkpoint of an earlier build; one unit
-  kReading,       ///< reading the input; bytes
-  kOrdering,      ///< sorting triangles in Morton order; parts of the triangle spool
-  kMatching,      ///< matching edges, to find unbalanced ones; chunks of triangles
-  kListing,       ///< collecting the faces at unbalanced edges; chunks of triangles
-  kBuildingTree,  ///< building the tree; chunks of triangles
-  kBuildingMask,  ///< building the mask; sectors of the octree
-  kWriting        ///< writing the file; pages
+  kResuming,       ///< checking the checkpoint of an earlier build; one unit
+  kReading,        ///< reading the input; bytes
+  kOrdering,       ///< sorting triangles in Morton order; parts of the triangle spool
+  kMatching,       ///< matching edges, to find unbalanced ones; chunks of triangles
+  kListing,        ///< collecting the faces at unbalanced edges; chunks of triangles
+  kBuildingTree,   ///< building the tree; chunks of triangles
+  kBuildingMask,   ///< building the mask; sectors of the octree
+  kBuildingField,  ///< building the coarse field; tiles of its grid
+  kWriting         ///< writing the file; pages
 };
 
 /// Returns the name of a phase for messages, such as "matching edges".
@@ -119,6 +120,8 @@ constexpr const char* name_of(BuildPhase phase) noexcept {
       return "building tree";
     case BuildPhase::kBuildingMask:
       return "building mask";
+    case BuildPhase::kBuildingField:
+      return "building field";
     case BuildPhase::kWriting:
       break;
   }

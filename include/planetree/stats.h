@@ -56,6 +56,7 @@ struct ModelInfo {
     std::uint64_t page_table = 0;      ///< page table
     std::uint64_t distance_pages = 0;  ///< pages of the tree
     std::uint64_t cap_pages = 0;       ///< pages of the caps that close the surface
+    std::uint64_t field_pages = 0;     ///< pages of the coarse field
     std::uint64_t mask_pages = 0;      ///< pages of the mask
   } section_bytes;                     ///< stored bytes of each part
   std::uint64_t content_id[2] = {};    ///< hash over the hashes of all pages, low word first
@@ -95,6 +96,9 @@ struct Stats {
   /// Whether one of the two headers of the file is damaged. The model uses the other one. Restore
   /// the file from a copy or build it again.
   bool header_copy_damaged = false;
+  /// Whether a page of the coarse field is damaged or unreadable. The model then does without the
+  /// field: answers within an error take more time, and degraded answers are less narrow.
+  bool field_damaged = false;
 };
 
 }  // namespace planetree

@@ -84,10 +84,13 @@ enum class Status : std::uint8_t {
   /// model's box away, the interval is wider than the model. The triangle is then that of least
   /// computed distance, and another one may be nearer.
   kExact,
-  /// Not exact, but upper - lower <= QueryOptions::max_error. A triangle other than the reported
-  /// one may be nearer. The side is as for kExact. The normal is that of the reported triangle. In
-  /// a batch such an answer depends on the file and the query alone. A single query near the last
-  /// one of its probe may be answered exactly instead, where that costs less.
+  /// Not exact, but upper - lower <= QueryOptions::max_error, and `distance` lies in the interval.
+  /// A
+  /// triangle other than the reported one may be nearer. Most such answers come from the coarse
+  /// field of the file and report no triangle. The side is as for kExact. The normal is that of the
+  /// reported triangle; without one it is the direction between `point` and the query, out of the
+  /// solid. In a batch such an answer depends on the file and the query alone. A single query near
+  /// the last one of its probe may be answered exactly instead, where that costs less.
   kWithinError,
   /// Not exact: a page is missing or unreadable, QueryOptions::max_work is spent, triangles outside
   /// of the region may be nearer (see ModelInfo::has_region), or the side is unknown because |w| is
@@ -171,9 +174,9 @@ struct ClosestPoint {
   /// interval includes rounding, so lower < upper for every status.
   double upper = 0;
   Side side = Side::kUnknown;  ///< side of the query point
-  /// Best surface point known. If a degraded answer has no triangle, it is the sample vertex of the
-  /// model. It is (0, 0, 0) if the status is kBeyondMaxDistance or kBadQuery or if no distance was
-  /// requested.
+  /// Best surface point known. Without a triangle it is a point of the coarse field, which is at
+  /// most 2^-16 of the model's longest edge off the surface, or the sample vertex of the model. It
+  /// is (0, 0, 0) if the status is kBeyondMaxDistance or kBadQuery or if no distance was requested.
   Vec3 point;
   /// Contact normal, of length 1: the angle-weighted pseudo-normal of the nearest face, edge or
   /// vertex. By SideRule::kSurface it follows the orientation of the mesh. By
@@ -191,8 +194,9 @@ struct ClosestPoint {
   ///   are outside or both inside, it follows the orientation of the mesh, and is reversed if the
   ///   winding number of the rest of the surface is negative.
   ///
-  /// It is (0, 0, 1) if no normal was requested, no triangle was found, or no face at the nearest
-  /// point has area.
+  /// Without a triangle it is the direction between `point` and the query, out of the solid, if the
+  /// status is kWithinError. It is (0, 0, 1) if no normal was requested, for other answers without
+  /// a triangle, and if no face at the nearest point has area.
   Vec3 normal{0, 0, 1};
   /// Index of the nearest triangle: its position in the input, from 0. A polygon of n corners
   /// counts as n - 2 triangles. Skipped records count too. If several triangles are equally near as

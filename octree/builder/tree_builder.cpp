@@ -1,7 +1,6 @@
 #include "octree/builder/tree_builder.h"
 
 #include <algorithm>
-#include <bit>
 #include <map>
 #include <optional>
 #include <string>
@@ -315,6 +314,10 @@ Result<void> TreeBuild::colour_cells() {
 }
 
 Result<BuildReport> TreeBuild::write_pages() {
+  auto field = BuiltField::build(BuiltTrees(&*tree_, caps_->tree()), region(),
+                                 model_.cut.triangle_count, options_.page_bytes, progress_);
+  if (!field) return field.error();
+  model_.field = *std::move(field);
   writing_ = true;
   const auto header =
       write_tree(model_, *tree_, *caps_, output_, options_, seams_.calls, progress_);
@@ -328,15 +331,10 @@ Result<BuildReport> TreeBuild::write_pages() {
 Result<BuildReport> build_tree(const BuildInput& input, const std::filesystem::path& output,
                                const BuildOptions& options, BuildProgress& progress,
                                const BuildSeams& seams) {
-  if (!std::has_single_bit(options.page_bytes) || options.page_bytes < storage::kMinPageBytes ||
-      options.page_bytes > storage::kMaxPageBytes)
-    return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
-                      "a page of %u bytes; use a power of two from 4K to 256K", options.page_bytes);
+  if (const auto checked = options.check(); !checked) return checked.error();
   auto memory = seams.memory ? Result<BuildMemory>(*seams.memory)
                              : BuildMemory::share(options.memory_bytes, options.threads);
   if (!memory) return memory.error();
-  if (options.box)
-    if (const auto checked = options.box->check(); !checked) return checked.error();
   if (options.resume) memory = memory->with_checkpoint();
   return BuildThreads(memory->threads).run([&] {
     TreeBuild build(input, output, options, *memory, progress, seams);

@@ -80,7 +80,8 @@ Result<storage::FileHeader> write_tree(const BuiltModel& built, const BuiltTree&
   const TreePages& pages = tree.pages();
   const std::uint32_t mask_pages = built.mask ? built.mask->size() : 0;
   const BuiltTrees trees(&tree, caps.tree());
-  const std::uint32_t page_count = trees.page_count() + mask_pages;
+  const std::uint32_t first_mask_page = trees.page_count() + built.field.page_count();
+  const std::uint32_t page_count = first_mask_page + mask_pages;
   auto writer = storage::PageWriter::create(output, page_count, options.replace, calls);
   if (!writer) return writer.error();
   PageAppender appender(*writer, progress, page_count);
@@ -103,9 +104,14 @@ Result<storage::FileHeader> write_tree(const BuiltModel& built, const BuiltTree&
     });
     if (!capped) return capped.error();
   }
+  writer->begin_field();
+  const auto added = appender.append(built.field.page_count(), [&](std::uint32_t page) {
+    return Result<FilePage>(built.field.encode(page, trees.page_count()));
+  });
+  if (!added) return added.error();
   writer->begin_mask();
   const auto masked = appender.append(
-      mask_pages, [&](std::uint32_t page) { return built.mask->encode(page, trees.page_count()); });
+      mask_pages, [&](std::uint32_t page) { return built.mask->encode(page, first_mask_page); });
   if (!masked) return masked.error();
   storage::ModelRecord model{};
   describe_mesh(built, model);
@@ -113,6 +119,7 @@ Result<storage::FileHeader> write_tree(const BuiltModel& built, const BuiltTree&
   describe_side_rule(built, options, model);
   describe_tree(built, tree, model);
   caps.describe(model);
+  built.field.describe(model);
   return writer->finish(model, options.page_bytes);
 }
 

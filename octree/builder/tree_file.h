@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "octree/builder/cap_tree.h"
+#include "octree/builder/field/built_field.h"
 #include "octree/builder/job/build_options.h"
 #include "octree/builder/job/build_progress.h"
 #include "octree/builder/job/model_frame.h"
@@ -33,6 +34,7 @@ struct BuiltModel {
   ChunkTree above;
   std::vector<BuiltChunk> chunks;  ///< in the order of above.chunks
   std::optional<BuiltMask> mask;   ///< only if triangles are in the region
+  BuiltField field;
 };
 
 /// Joins the parts and writes the file, completely or not at all.

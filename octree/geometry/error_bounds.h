@@ -53,6 +53,17 @@ inline constexpr double kMaxDiagonal = 4;
 /// their sum; times 4.
 inline constexpr double kValueRounding = 0x1p-40;
 
+// The coarse field: octree/field/coarse_field.h. Its lengths are in quanta; the grid is shorter
+// than 2^17 of them, so that a position in it errs by 2^-7 in float.
+
+/// Error of a squared distance in float, as a share of it, and of an interpolation between eight of
+/// them, as a share of the greatest: differences, squares and sums err by 8 v, three interpolations
+/// by 6 v.
+inline constexpr double kFieldRounding = 16 * 0x1p-24;
+/// Relative error of a distance in double, from outside of the grid to it or to a stored point:
+/// scaling, differences, squares, sums and root err by less than 16 u.
+inline constexpr double kFieldNormRounding = 0x1p-40;
+
 // Signs of determinants and overlap of boxes, in double.
 
 /// Error of a 3 x 3 determinant, as a share of its permanent: four times Shewchuk's (7 + 56 u) u,

@@ -45,6 +45,15 @@ NearestAnswer nothing_read(const TreeInfo& tree, const Point& query, double lowe
   return answer;
 }
 
+// Answers by the coarse field where no triangle was found. `lower` bounds what was skipped.
+void answer_with(const FieldBounds& bounds, double lower, NearestAnswer& answer) {
+  answer.point = bounds.point;
+  answer.upper = up(bounds.upper);
+  answer.distance = answer.upper;
+  answer.lower = down(std::max(bounds.lower, lower));
+  answer.feature = Feature::kVertex;
+}
+
 // Whether skipped children of this least squared bound may hold the nearest triangle. An infinite
 // bound means that none were skipped. It is tested by itself because the threshold is infinite too
 // where the query is too far away for float.
@@ -63,7 +72,71 @@ void answer_with(const BestTriangle& best, NearestAnswer& answer) {
   answer.status = Status::kExact;
 }
 
+// The rounding of both ends of the interval is part of the error.
+bool is_within_error(const NearestAnswer& answer, const NearestLimits& limits) {
+  return answer.upper - answer.lower + kValueRounding * answer.upper <= limits.max_error;
+}
+
+// Narrows the interval of an answer that is not exact by the coarse field. A forged field may
+// contradict the tree; then it is not used.
+void narrow(const Point& query, const NearestLimits& limits, NearestAnswer& answer) {
+  if (!limits.field || limits.field->is_empty()) return;
+  const FieldBounds bounds = limits.field->bounds(query);
+  const double lower = std::max(answer.lower, down(bounds.lower));
+  // Within an error, the triangle found is near enough: its distance stays in the interval.
+  const bool keeps_upper = answer.status == Status::kWithinError && answer.triangle != kNoTriangle;
+  const double upper = keeps_upper ? answer.upper : std::min(answer.upper, up(bounds.upper));
+  if (!(lower < upper)) return;
+  if (answer.triangle == kNoTriangle && bounds.upper < answer.upper) {
+    answer.point = bounds.point;
+    answer.distance = upper;
+  }
+  answer.lower = lower;
+  answer.upper = upper;
+  if (answer.distance <= upper && is_within_error(answer, limits))
+    answer.status = Status::kWithinError;
+}
+
+// Widens the interval of an answer for what was skipped and may be nearer, then narrows it by the
+// field.
+[[gnu::noinline]] void account_for_skipped(const TreeInfo& tree, const Point& query,
+                                           const NearestLimits& limits,
+                                           const FloatQuery& float_query,
+                                           const SkippedBounds& skipped, bool is_pruned,
+                                           bool is_incomplete, NearestAnswer& answer) {
+  const auto bound_of = [&](float squared) {
+    return std::max(distance_to_box(tree, query), certified(float_query, squared));
+  };
+  if (is_pruned) {
+    answer.lower = std::min(answer.lower, bound_of(skipped.pruned));
+    answer.status = Status::kWithinError;
+  }
+  if (is_incomplete) {
+    answer.lower = std::min(answer.lower, bound_of(skipped.unread));
+    answer.upper = std::min(answer.upper, up(skipped.within));
+    answer.status = Status::kDegraded;
+  }
+  narrow(query, limits, answer);
+}
+
 }  // namespace
+
+bool answer_by_field(const Point& query, const NearestLimits& limits,
+                     NearestAnswer& answer) noexcept {
+  const FieldBounds bounds = limits.field->bounds(query);
+  if (!bounds.are_known()) return false;
+  answer_with(bounds, 0, answer);
+  if (!is_within_error(answer, limits) ||
+      answer.upper - answer.lower > limits.max_field_share * answer.lower)
+    return false;
+  if (answer.lower > limits.max_distance)
+    answer = beyond(limits);
+  else if (answer.upper > limits.max_distance)
+    return false;
+  else
+    answer.status = Status::kWithinError;
+  return true;
+}
 
 NearestAnswer finalize(const TreeInfo& tree, const Point& query, const NearestLimits& limits,
                        const BestTriangle& best, const FloatQuery& float_query,
@@ -71,32 +144,21 @@ NearestAnswer finalize(const TreeInfo& tree, const Point& query, const NearestLi
   // One variable, which the compiler can build in the caller's memory.
   NearestAnswer answer;
   const bool is_incomplete = may_matter(skipped.unread, best);
-  const auto bound_of = [&](float squared) {
-    return std::max(distance_to_box(tree, query), certified(float_query, squared));
-  };
-  if (!best.found()) {
-    if (is_incomplete)
-      answer = nothing_read(tree, query, std::min(limits.max_distance, bound_of(skipped.unread)),
-                            skipped.within);
-    else if (limits.max_distance < kInfinity)
-      answer = beyond(limits);
-    else  // The bounds of a forged file exclude all of its triangles, so they prove nothing.
-      answer = nothing_read(tree, query, 0, kInfinity);
-    return answer;
+  const bool is_pruned = may_matter(skipped.pruned, best);
+  if (best.found()) {
+    answer_with(best, answer);
+  } else if (is_incomplete || is_pruned) {
+    answer = nothing_read(tree, query, limits.max_distance, skipped.within);
+  } else {
+    // The bounds of a forged file may exclude all of its triangles. Then they prove nothing.
+    return limits.max_distance < kInfinity ? beyond(limits)
+                                           : nothing_read(tree, query, 0, kInfinity);
   }
-  answer_with(best, answer);
-  if (may_matter(skipped.pruned, best)) {
-    answer.lower = std::min(answer.lower, bound_of(skipped.pruned));
-    answer.status = Status::kWithinError;
-  }
+  if (is_incomplete || is_pruned) [[unlikely]]
+    account_for_skipped(tree, query, limits, float_query, skipped, is_pruned, is_incomplete,
+                        answer);
   // Tested after the bounds of what max_error skipped: that may be nearer than the triangle found.
-  if (answer.lower > limits.max_distance && !is_incomplete) {
-    answer = beyond(limits);
-  } else if (is_incomplete) {
-    answer.lower = std::min(answer.lower, bound_of(skipped.unread));
-    answer.upper = std::min(answer.upper, up(skipped.within));
-    answer.status = Status::kDegraded;
-  }
+  if (answer.lower > limits.max_distance) answer = beyond(limits);
   return answer;
 }
 

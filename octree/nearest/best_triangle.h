@@ -32,13 +32,23 @@ class BestTriangle {
   /// Distance beyond which no triangle matters.
   double reach() const { return reach_; }
   /// Children of a greater squared bound are not visited.
-  float threshold() const { return threshold_; }
+  float threshold() {
+    if (is_stale_) [[unlikely]]
+      lower_threshold();
+    return threshold_;
+  }
   /// Children of a greater squared bound cannot hold the nearest triangle.
   float exact_threshold() const { return exact_threshold_; }
 
   /// Lower bound on the true distance of every triangle offered so far. A triangle of greater value
   /// than the best may be truly nearer, if its value is less certain.
   double lower() const { return lower_; }
+
+  /// Returns a distance for tighten() where the surface is at most `within` away: the value of a
+  /// triangle may exceed its distance.
+  static double reach_within(double within, double span) {
+    return within + kValueRounding * (within + span) + kCoherenceSlack;
+  }
 
   /// Lowers reach() to `distance`. Some triangle must be within it as computed, and must be offered
   /// later or lie in an unread subtree.
@@ -86,8 +96,12 @@ class BestTriangle {
   void refresh() {
     exact_threshold_ = prune_threshold(float_query_, reach_);
     threshold_ = exact_threshold_;
-    // max_error needs a distance to some triangle.
-    if (!bounded_ || !(limits_.max_error > 0)) return;
+    // max_error needs a distance to some triangle. Queries near the surface do not use it.
+    is_stale_ = bounded_ && limits_.max_error > 0;
+  }
+
+  void lower_threshold() {
+    is_stale_ = false;
     // The rounding of both ends of the interval is part of the error.
     const double max_gain = limits_.max_error - (reach_ + limits_.max_error) * kValueRounding;
     if (max_gain > 0)
@@ -104,7 +118,8 @@ class BestTriangle {
   Triangle corners_{Point::Zero(), Point::Zero(), Point::Zero()};
   TriangleResult finding_;
   double reach_ = max_reach_;
-  bool bounded_ = false;  // reach_ is the distance of a triangle
+  bool bounded_ = false;   // reach_ is the distance of a triangle
+  bool is_stale_ = false;  // threshold_ is yet to be lowered by max_error
   float threshold_ = 0;
   float exact_threshold_ = 0;
 };
@@ -126,6 +141,11 @@ struct SkippedBounds {
     within = std::min(within, farthest_in_box(box, offset));
   }
 };
+
+/// Answers a query within an error by the coarse field alone, which must be there. Returns false if
+/// the field is not so certain there.
+bool answer_by_field(const Point& query, const NearestLimits& limits,
+                     NearestAnswer& answer) noexcept;
 
 /// Makes the answer of a finished traversal.
 NearestAnswer finalize(const TreeInfo& tree, const Point& query, const NearestLimits& limits,

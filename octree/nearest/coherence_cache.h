@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "octree/field/coarse_field.h"
 #include "octree/geometry/error_bounds.h"
 #include "octree/geometry/triangle_distance.h"
 #include "octree/traversal/nearby_lists.h"
@@ -71,6 +72,10 @@ class CoherenceCache {
     last_nearest_ = nearest;
   }
 
+  /// Records what the coarse field tells near the last query.
+  void note_field(const CoarseField::Estimate& estimate) { field_ = estimate; }
+  const CoarseField::Estimate& field() const { return field_; }
+
   /// Records an exact answer that came from the ball. Drops the ball if it is far larger than steps
   /// of the last length need, because it then holds too much.
   void note_and_trim(const Point& query, double distance, const Point& nearest) {
@@ -114,6 +119,7 @@ class CoherenceCache {
   double radius_ = 0;
   Course course_ = Course::kPath;
   Point last_nearest_ = Point::Zero();
+  CoarseField::Estimate field_;
   NearbySubtrees subtrees_;
   NearbyTriangles triangles_;
 };

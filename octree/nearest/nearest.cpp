@@ -40,6 +40,15 @@ NearestAnswer nearest_of_list(const TreeInfo& tree, const Point& query, const Ne
   return finalize(tree, query, limits, best, float_query, {});
 }
 
+// Upper bound on the distance from the coarse field; infinity if it tells nothing.
+double within(const NearestLimits& limits, const Point& query, CoherenceCache* coherence_cache) {
+  if (!limits.field || limits.within < std::numeric_limits<double>::infinity())
+    return limits.within;
+  const CoarseField::Estimate estimate = limits.field->estimate(query);
+  if (coherence_cache) coherence_cache->note_field(estimate);
+  return estimate.upper;
+}
+
 NearestAnswer nearest_on_target(const TreeInfo& tree, const Point& query,
                                 const NearestLimits& limits, const PageReader& pages,
                                 TraversalStats& work, CoherenceCache* coherence_cache) {
@@ -49,7 +58,8 @@ NearestAnswer nearest_on_target(const TreeInfo& tree, const Point& query,
   const bool in_list = in_ball && coherence_cache->triangles().complete();
   const auto traverse = [&](bool from_ball) {
     NearestTraversal traversal(tree, query, limits, limit, pages, work);
-    from_ball ? traversal.run_from(*coherence_cache) : traversal.run_from_root();
+    from_ball ? traversal.run_from(*coherence_cache)
+              : traversal.run_from_root(within(limits, query, coherence_cache));
     if (limits.known) traversal.fall_back_on(*limits.known);
     return finalize(tree, query, limits, traversal.best(), traversal.float_query(),
                     traversal.skipped_bounds());
@@ -89,19 +99,35 @@ namespace planetree::octree {
 
 HWY_EXPORT(nearest_on_target);
 
-// Answers within an error, and exactly where that costs less.
-static NearestAnswer nearest_by_history(const TreeInfo& tree, const Point& query,
-                                        const NearestLimits& limits, const PageReader& pages,
-                                        TraversalStats& work, CoherenceCache& coherence_cache) {
-  NearestLimits exact = limits;
-  exact.max_error = 0;
-  const double diagonal = (tree.core_upper - tree.core_lower).norm();
-  if (exact.allow_any_way() && coherence_cache.is_near_last(query, diagonal))
-    return HWY_DYNAMIC_DISPATCH(nearest_on_target)(tree, query, exact, pages, work,
-                                                   &coherence_cache);
-  const NearestAnswer answer =
-      HWY_DYNAMIC_DISPATCH(nearest_on_target)(tree, query, limits, pages, work, nullptr);
-  if (answer.triangle != kNoTriangle) coherence_cache.note(query, answer.point);
+static NearestAnswer nearest_in_tree(const TreeInfo& tree, const Point& query,
+                                     const NearestLimits& limits, const PageReader& pages,
+                                     TraversalStats& work, CoherenceCache* coherence_cache) {
+  const bool any_way = limits.known || limits.allow_any_way();
+  return HWY_DYNAMIC_DISPATCH(nearest_on_target)(tree, query, limits, pages, work,
+                                                 any_way ? coherence_cache : nullptr);
+}
+
+// Answers by the field where that is certain enough, and else by the tree.
+[[gnu::noinline]] static NearestAnswer nearest_within_error(
+    const TreeInfo& tree, const Point& query, const NearestLimits& limits, const PageReader& pages,
+    TraversalStats& work, CoherenceCache* coherence_cache) {
+  NearestLimits bounded = limits;
+  if (limits.prefers_exact) bounded.max_error = 0;
+  const bool is_exact = limits.prefers_exact && coherence_cache;
+  if (is_exact && !limits.may_be_answered_by(coherence_cache->field()))
+    return nearest_in_tree(tree, query, bounded, pages, work, coherence_cache);
+  CoarseField::Estimate estimate = limits.field->estimate(query);
+  NearestAnswer answer;
+  if (limits.may_be_answered_by(estimate)) {
+    if (answer_by_field(query, limits, answer)) return answer;
+    estimate.width = answer.upper - answer.lower;
+  }
+  bounded.within = estimate.upper;
+  answer = nearest_in_tree(tree, query, bounded, pages, work, coherence_cache);
+  if (coherence_cache && answer.triangle != kNoTriangle) {
+    coherence_cache->note(query, answer.point);
+    coherence_cache->note_field(estimate);
+  }
   return answer;
 }
 
@@ -109,12 +135,9 @@ NearestAnswer nearest(const TreeInfo& tree, const Point& query, const NearestLim
                       const PageReader& pages, TraversalStats& work,
                       CoherenceCache* coherence_cache) noexcept {
   assert(query.cwiseAbs().maxCoeff() <= kMaxQueryCoordinate);
-  if (!limits.allow_history || limits.known || !coherence_cache) {
-    const bool any_way = limits.known || limits.allow_any_way();
-    return HWY_DYNAMIC_DISPATCH(nearest_on_target)(tree, query, limits, pages, work,
-                                                   any_way ? coherence_cache : nullptr);
-  }
-  return nearest_by_history(tree, query, limits, pages, work, *coherence_cache);
+  if (limits.max_error > 0 && limits.field)
+    return nearest_within_error(tree, query, limits, pages, work, coherence_cache);
+  return nearest_in_tree(tree, query, limits, pages, work, coherence_cache);
 }
 
 }  // namespace planetree::octree

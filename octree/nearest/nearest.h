@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "octree/field/coarse_field.h"
 #include "octree/geometry/tree_limits.h"
 #include "octree/geometry/triangle_distance.h"
 #include "octree/nearest/coherence_cache.h"
@@ -33,9 +34,18 @@ struct NearestLimits {
   /// is evaluated again; its old distance is not used. If set, queries of limited work use the
   /// coherence cache too, so that answers that are not exact depend on earlier queries.
   const NearestAnswer* known = nullptr;
-  /// A query of unlimited work and an allowed error is answered exactly if it is so near the last
-  /// one that the coherence cache makes that cheaper. So its answer depends on earlier queries.
-  bool allow_history = false;
+  /// Whether a query that the field cannot answer is to be answered exactly, because the last one
+  /// is so near that the coherence cache makes that cheaper than an answer within the error. The
+  /// answer then depends on earlier queries.
+  bool prefers_exact = false;
+  /// Coarse field of the tree, or null. It bounds the distance before any page is read, narrows
+  /// answers that are not exact, and gives answers within an error of its own.
+  const CoarseField* field = nullptr;
+  /// Maximum width of the interval of an answer that is the field's alone, as a share of its lower
+  /// end. Such an answer has no triangle.
+  double max_field_share = std::numeric_limits<double>::infinity();
+  /// Upper bound on the distance, where the caller has looked at the field.
+  double within = std::numeric_limits<double>::infinity();
 
   /// Whether the answer is the same for every order of visits. With limited work or an allowed
   /// error it depends on that order. The order must then not depend on which pages are resident,
@@ -43,6 +53,12 @@ struct NearestLimits {
   bool allow_any_way() const { return max_error == 0 && has_unlimited_work(); }
   /// Whether the work may be spent before any triangle is found.
   bool has_little_work() const { return max_work <= 1024; }
+  /// Whether the coarse field is likely to answer where it has this estimate.
+  bool may_be_answered_by(const CoarseField::Estimate& estimate) const {
+    return estimate.width <= max_error &&
+           (max_field_share == std::numeric_limits<double>::infinity() ||
+            estimate.width <= max_field_share * estimate.lower);
+  }
   bool has_unlimited_work() const { return max_work == std::numeric_limits<std::uint32_t>::max(); }
 };
 

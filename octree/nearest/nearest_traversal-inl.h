@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "octree/geometry/triangle_kernels-inl.h"
 #include "octree/geometry/work_limit.h"
@@ -53,11 +54,12 @@ class NearestTraversal {
   NearestTraversal(const NearestTraversal&) = delete;
   NearestTraversal& operator=(const NearestTraversal&) = delete;
 
-  void run_from_root() {
+  void run_from_root(double within) {
+    best_.tighten(BestTriangle::reach_within(within, tree_.span(query_)));
     search(0, tree_.root_link);
     finish();
   }
-  // Starts at the subtrees of the cache's ball, nearest first.
+  // Starts at the ball's subtrees, nearest first.
   void run_from(const CoherenceCache& coherence_cache) {
     subtrees_ = &coherence_cache.subtrees();
     if (limits_.max_error == 0 && float_query_.usable)
@@ -101,12 +103,11 @@ class NearestTraversal {
     } while (take_next(entry, second, has_second));
   }
 
-  // Takes the next entry from the frontier. Far from the surface, two are taken at a time. The
-  // second does not wait for the first one's children, because few of these are nearer.
+  // Takes the next entry from the frontier. Far from the surface, two are taken at a time, since
+  // few children of the first are nearer than the second.
   HWY_INLINE bool take_next(FrontierEntry& entry, FrontierEntry& second, bool& has_second) {
-    if (has_second) {
+    if (std::exchange(has_second, false)) {
       entry = second;
-      has_second = false;
       return true;
     }
     const Frontier::Order order = order_;
@@ -117,8 +118,8 @@ class NearestTraversal {
     return true;
   }
 
-  // Near the surface an allowed error saves little, and the side is cheaper to find exactly.
-  HWY_INLINE float threshold_for(Frontier::Order order) const {
+  // Near the surface an allowed error saves little.
+  HWY_INLINE float threshold_for(Frontier::Order order) {
     return order == Frontier::Order::kNearest ? best_.threshold() : best_.exact_threshold();
   }
 
@@ -226,8 +227,8 @@ class NearestTraversal {
     best_.tighten(filter_upper(filtered.min_upper, header.extent));
   }
 
-  // Returns how many triangles of a block to consider. Of equal ones the first suffices, because it
-  // has the least index, and none is needed if it is the best triangle again.
+  // Returns how many triangles of a block to consider. Of equal ones the first suffices, and none
+  // is needed if it is the best triangle again.
   HWY_NOINLINE unsigned different(const BlockView& block) const {
     if (!block.header().repeats_one_triangle()) return block.triangle_count();
     const auto corners = block.header().corners(0);
@@ -290,8 +291,7 @@ class NearestTraversal {
         [&](float squared, float extent) { return squared <= filter_limit(extent); });
   }
 
-  // Called before frames are released. The collected blocks point into frames, so their candidates
-  // are taken now, by the best distance so far.
+  // Takes the candidates of the collected blocks, whose frames are about to be released.
   static void on_release(void* traversal) noexcept {
     static_cast<NearestTraversal*>(traversal)->add_candidates_of_blocks();
   }

@@ -250,7 +250,7 @@ const char* MaskDecoder::decode_list(std::byte* octants, std::byte* links, unsig
   const ByteSplit<std::uint8_t> all_octants = streams_.block_octants;
   const ByteSplit<std::uint32_t> all_links = streams_.block_links;
   const LinkFormat format = block_links_;
-  const std::uint32_t page_count = info_.first_page;
+  const std::uint32_t page_count = info_.tree_pages;
   const std::size_t first = next_block_;
   next_block_ += count;
   bool all_touch = true, all_lead = true, ascend = true;

@@ -11,6 +11,8 @@
 #include "octree/nearest/feature_normal.h"
 #include "octree/nearest/front_side.h"
 #include "octree/nearest/height_field.h"
+#include "query/answer/far_query.h"
+#include "query/answer/missing_surface.h"
 #include "query/answer/query_context.h"
 #include "query/answer/sheet_side.h"
 #include "query/answer/side.h"
@@ -19,59 +21,6 @@ namespace planetree::query {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-// Returns the answer of a far query. Beyond octree::kMaxQueryCoordinate all triangles are equally
-// far in double. `from` is a point at that distance in the direction of the query.
-octree::NearestAnswer farthest(const octree::TreeInfo& tree, const octree::Point& from) {
-  octree::NearestAnswer nearest;
-  nearest.point = nearest.corners[0] = tree.sample;
-  nearest.triangle = tree.sample_triangle;
-  nearest.distance = from.norm();
-  nearest.barycentric = {1, 0, 0};
-  nearest.feature = Feature::kVertex;
-  nearest.status = Status::kExact;
-  return nearest;
-}
-
-// Sets the distance of a far query. Computes in model units, since the model frame could overflow.
-void measure_far(const Vec3& query, const QueryOptions& options, ClosestPoint& answer) {
-  const double largest = std::max({std::fabs(query.x), std::fabs(query.y), std::fabs(query.z)});
-  const double x = query.x / largest, y = query.y / largest, z = query.z / largest;
-  answer.distance = largest * std::sqrt(x * x + y * y + z * z);
-  if (answer.distance > options.max_distance) {
-    answer = unanswered(Status::kBeyondMaxDistance);
-    answer.lower = options.max_distance;
-    return;
-  }
-  answer.upper = answer.distance * (1 + octree::kNormRounding);
-  answer.lower =
-      std::min(answer.distance, std::numeric_limits<double>::max()) * (1 - octree::kNormRounding);
-}
-
-// Returns a distance that all triangles missing from a file of a region exceed, also as evaluated;
-// 0 for a far query, for which none is known.
-double clearance(const ModelGeometry& model, const octree::Point& point, bool far) {
-  if (!model.region.has_walls()) return kInfinity;
-  return far ? 0 : model.region.clearance(point, model.tree.span(point));
-}
-
-// Corrects the answer of a file of a region for the triangles missing from the file. None of them
-// is nearer than `clear`.
-void account_for_missing_surface(const octree::TreeInfo& tree, const octree::Point& point,
-                                 double clear, double max_distance,
-                                 octree::NearestAnswer& nearest) {
-  const bool beyond = nearest.status == Status::kBeyondMaxDistance;
-  if (beyond ? max_distance <= clear : nearest.upper < clear) return;
-  // A missing triangle may be nearer.
-  nearest.lower = std::max(0.0, std::min(nearest.lower, clear));
-  nearest.status = Status::kDegraded;
-  if (!beyond) return;
-  nearest.point = tree.sample;
-  nearest.upper =
-      (point - tree.sample).norm() * (1 + octree::kNormRounding) + octree::kUnresolvedLength;
-  nearest.distance = nearest.upper;
-  nearest.feature = Feature::kVertex;
-}
 
 void fill_in(const Scale& scale, const octree::NearestAnswer& nearest, ClosestPoint& answer) {
   answer.distance = scale.out(nearest.distance);
@@ -117,7 +66,10 @@ class ClosestPointQuery {
     if ((parts & kDistance) != 0) report_nearest(nearest);
     const bool with_normal = (parts & kNormal) != 0 && answer_.triangle != kNoTriangle;
     const SideResult& side = (parts & kSide) != 0 ? find_side(nearest, with_normal) : side_result_;
-    if (with_normal) find_normal(nearest, side);
+    if (with_normal)
+      find_normal(nearest, side);
+    else if ((parts & kNormal) != 0 && answer_.status == Status::kWithinError)
+      find_direction(nearest);
     return incomplete_;
   }
 
@@ -167,12 +119,24 @@ class ClosestPointQuery {
     limits.max_error = may_err ? model_.scale.in(options_.max_error) : 0;
     limits.max_distance = model_.scale.in(options_.max_distance);
     limits.max_work = options_.max_work;
-    limits.allow_history = limits.max_error > 0 &&
-                           coherence_.nearest.course() == octree::CoherenceCache::Course::kPath;
+    // The direction to the field's point serves as a normal where that is far away.
+    if ((computed_parts(options_.parts) & kNormal) != 0)
+      limits.max_field_share = kMaxShareWithNormal;
+    limits.prefers_exact = limits.max_error > 0 && is_exact_cheaper(limits);
     return search_nearest(limits);
   }
 
+  // Whether an exact answer costs less than one within an error that the tree gives: near the last
+  // query of a path.
+  bool is_exact_cheaper(const octree::NearestLimits& limits) const {
+    const octree::CoherenceCache& cache = coherence_.nearest;
+    return coherence_.is_on && options_.wait == Wait::kForPages && limits.has_unlimited_work() &&
+           cache.course() == octree::CoherenceCache::Course::kPath &&
+           cache.is_near_last(point_, model_.diagonal);
+  }
+
   octree::NearestAnswer search_nearest(octree::NearestLimits& limits) {
+    limits.field = &model_.field;
     if (options_.wait == Wait::kNever && coherence_.is_on) limits.known = &coherence_.last_nearest;
     return octree::nearest(model_.tree, point_, limits, pages_, work_,
                            coherence_.is_on ? &coherence_.nearest : nullptr);
@@ -280,6 +244,17 @@ class ClosestPointQuery {
     if (!faces.complete || !oriented.winding_is_known || limit.exceeded()) mark_degraded();
   }
 
+  // Sets the normal of an answer without a triangle: the direction from its point to the query, out
+  // of the solid.
+  void find_direction(const octree::NearestAnswer& nearest) {
+    octree::Point direction = point_ - nearest.point;
+    if (answer_.side == Side::kInside) direction = -direction;
+    const double length = direction.norm();
+    if (!(length > 0)) return;
+    direction /= length;
+    answer_.normal = {direction.x(), direction.y(), direction.z()};
+  }
+
   [[gnu::noinline]] void find_normal_by_front(const octree::NearestAnswer& nearest) {
     const octree::FeatureNormal& faces = feature(nearest);
     octree::Point normal = faces.normal;
@@ -314,6 +289,7 @@ class ClosestPointQuery {
     if (answer_.status != Status::kBeyondMaxDistance) answer_.status = Status::kDegraded;
   }
 
+  static constexpr double kMaxShareWithNormal = 0.125;  // width by distance of a field's answer
   static constexpr std::uint64_t kNodesForFaces = 512;  // minimum of work left to look for faces
 
   const ModelGeometry& model_;

@@ -63,6 +63,7 @@ ModelGeometry::ModelGeometry(const storage::FileHeader& header)
       mask(mask_info(header, tree)),
       region(region_of(header.model)),
       region_corner(region.clamped(tree.core_lower)),
+      diagonal((tree.core_upper - tree.core_lower).norm()),
       cap_area(header.model.cap_area),
       region_winding(header.model.region_winding) {
   const auto set = [this](SideRule rule, bool by_winding_number) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 
+#include "octree/field/coarse_field.h"
 #include "octree/geometry/cell_grid.h"
 #include "octree/mask/cap_grid.h"
 #include "octree/mask/mask_lookup.h"
@@ -26,9 +27,11 @@ struct ModelGeometry {
   octree::TreeInfo caps;
   octree::MaskInfo mask;
   octree::SideGrid side_grid;   ///< empty until filled
+  octree::CoarseField field;    ///< tells nothing until filled
   octree::CapGrid cap_grid;     ///< if there are caps, nothing is clear until it is filled
   octree::Region region;        ///< part of space whose surface the file holds
   octree::Point region_corner;  ///< a point of the region; see region_winding
+  double diagonal;              ///< of the core
   double cap_area;              ///< sum of the caps' areas
   std::int64_t region_winding;  ///< winding number at `region_corner`, caps included
 

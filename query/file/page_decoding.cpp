@@ -1,5 +1,8 @@
 #include "query/file/page_decoding.h"
 
+#include <algorithm>
+
+#include "octree/field/field_page.h"
 #include "octree/page/frame.h"
 #include "octree/page/mask_frame.h"
 #include "octree/page/page_decoder.h"
@@ -19,27 +22,55 @@ octree::BlockShape cap_shape(const storage::ModelRecord& model) noexcept {
   return shape;
 }
 
-Result<void> decode_frame(const storage::FileHeader& header, const storage::PageEntry& entry,
-                          std::uint32_t page, std::span<const std::byte> raw,
-                          std::span<std::byte> frame) noexcept {
-  const std::uint32_t first_cap_page = header.first_cap_page();
-  const std::uint32_t first_mask_page = header.first_mask_page();
-  const bool mask = page >= first_mask_page, caps = !mask && page >= first_cap_page;
+octree::FieldShape field_shape(const storage::ModelRecord& model) noexcept {
+  octree::FieldShape shape;
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    shape.lower[axis] = model.field_lower[axis];
+    shape.size[axis] = model.field_size[axis];
+  }
+  shape.step = model.field_step;
+  shape.quantum = model.field_quantum;
+  return shape;
+}
+
+std::size_t field_points(const storage::FileHeader& header, std::uint32_t page) noexcept {
+  const std::uint64_t in_page = octree::points_per_field_page(header.page_bytes);
+  const std::uint64_t before = in_page * (page - header.first_field_page());
+  return static_cast<std::size_t>(std::min(in_page, field_shape(header.model).count() - before));
+}
+
+octree::PageInfo page_info(const storage::FileHeader& header, const storage::PageEntry& entry,
+                           std::uint32_t page) noexcept {
+  const std::uint32_t starts[] = {0, header.first_cap_page(), header.first_field_page(),
+                                  header.first_mask_page(), header.page_count};
+  unsigned section = 0;
+  while (page >= starts[section + 1]) ++section;
   octree::PageInfo info;
   info.page_bytes = header.page_bytes;
-  info.first_page = mask ? first_mask_page : caps ? first_cap_page : 0;
-  const std::uint32_t end = mask ? header.page_count : caps ? first_mask_page : first_cap_page;
-  info.page_count = end - info.first_page;
-  info.shape = caps ? cap_shape(header.model) : block_shape(header.model);
+  info.first_page = starts[section];
+  info.page_count = starts[section + 1] - starts[section];
+  info.tree_pages = header.first_field_page();
+  info.shape = section == 1 ? cap_shape(header.model) : block_shape(header.model);
   info.page_number = page;
   info.octcode = entry.octcode;
   info.ordinal = entry.ordinal;
-  return mask ? octree::decode_mask_page(raw, info, frame) : octree::decode_page(raw, info, frame);
+  return info;
+}
+
+Result<void> decode_frame(const storage::FileHeader& header, const storage::PageEntry& entry,
+                          std::uint32_t page, std::span<const std::byte> raw,
+                          std::span<std::byte> frame) noexcept {
+  const octree::PageInfo info = page_info(header, entry, page);
+  if (page >= header.first_mask_page()) return octree::decode_mask_page(raw, info, frame);
+  if (page < header.first_field_page()) return octree::decode_page(raw, info, frame);
+  return octree::decode_field_page(
+      raw, info, {reinterpret_cast<octree::FieldPoint*>(frame.data()), field_points(header, page)});
 }
 
 bool leads_to_pages(const storage::FileHeader& header, std::uint32_t page,
                     std::span<const std::byte> frame) noexcept {
   const std::byte* head = frame.data();
+  if (page >= header.first_field_page() && page < header.first_mask_page()) return false;
   return page < header.first_mask_page()
              ? reinterpret_cast<const octree::FrameHeader*>(head)->page_link_count > 0
              : reinterpret_cast<const octree::MaskHeader*>(head)->page_link_count > 0;

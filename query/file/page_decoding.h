@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <span>
 
+#include "octree/field/field_shape.h"
 #include "octree/page/frame.h"
+#include "octree/page/page_decoder.h"
 #include "planetree/error.h"
 #include "storage/file/file_layout.h"
 
@@ -14,13 +16,23 @@ namespace planetree::query {
 octree::BlockShape block_shape(const storage::ModelRecord& model) noexcept;
 octree::BlockShape cap_shape(const storage::ModelRecord& model) noexcept;
 
-/// Decodes a distance page, a cap page or a mask page into its frame.
+/// Returns the grid of a file's coarse field; without points if it has none.
+octree::FieldShape field_shape(const storage::ModelRecord& model) noexcept;
+
+/// Returns the number of grid points in a field page.
+std::size_t field_points(const storage::FileHeader& header, std::uint32_t page) noexcept;
+
+/// Returns what decoding a page needs.
+octree::PageInfo page_info(const storage::FileHeader& header, const storage::PageEntry& entry,
+                           std::uint32_t page) noexcept;
+
+/// Decodes a page of any kind into its frame.
 ///
 /// entry   entry of the page in the page table
 /// page    page number, below header.page_count
 /// raw     raw bytes of the page; any bytes are allowed
 /// frame   header.page_bytes bytes, aligned to 64 bytes; undefined after an error
-/// errors  kDamaged: see octree/page/page_decoder.h
+/// errors  kDamaged: see octree/page/page_decoder.h and octree/field/field_page.h
 Result<void> decode_frame(const storage::FileHeader& header, const storage::PageEntry& entry,
                           std::uint32_t page, std::span<const std::byte> raw,
                           std::span<std::byte> frame) noexcept;

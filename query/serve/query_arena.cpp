@@ -21,6 +21,7 @@ QueryArena::Parts cut(cache::ArenaLayout& layout, const QueryArena::Needs& needs
   parts.model = std::as_writable_bytes(layout.cut<Line>(lines(needs.model_bytes)));
   parts.probes = std::as_writable_bytes(layout.cut<Line>(needs.readers * lines(needs.probe_bytes)));
   parts.fetch_requests = layout.cut<FetchRequests>(needs.readers);
+  parts.field = std::as_writable_bytes(layout.cut<Line>(lines(needs.field_bytes)));
   parts.side_grid = layout.cut<std::byte>(needs.side_grid_bytes);
   if (needs.page_trace_capacity == 0) return parts;
   using Ring = cache::SpscRing<TracedAccess>;

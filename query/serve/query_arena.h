@@ -12,9 +12,9 @@
 
 namespace planetree::query {
 
-/// The memory that queries touch besides the cache: the state of the model, its side grid, and the
-/// state, fetch requests and page trace of each probe. It is claimed and prefaulted when a model is
-/// opened, so that no query causes a page fault.
+/// The memory that queries touch besides the cache: the state of the model, its side grid and
+/// coarse field, and the state, fetch requests and page trace of each probe. It is claimed and
+/// prefaulted when a model is opened, so that no query causes a page fault.
 class QueryArena {
  public:
   struct Needs {
@@ -22,6 +22,7 @@ class QueryArena {
     std::uint64_t model_bytes = 0;  ///< size of the model's state
     std::uint64_t probe_bytes = 0;  ///< size of a probe's state
     std::uint64_t side_grid_bytes = 0;
+    std::uint64_t field_bytes = 0;
     std::uint64_t page_trace_capacity = 0;  ///< records per reader; 0: no trace
     std::uint64_t page_count = 0;
   };
@@ -32,6 +33,7 @@ class QueryArena {
     std::span<std::byte> probes;              ///< see probe()
     std::span<FetchRequests> fetch_requests;  ///< indexed by reader
     std::span<std::byte> side_grid;
+    std::span<std::byte> field;     ///< aligned to a cache line
     std::span<PageTrace> traces;    ///< indexed by reader; empty without a trace
     std::span<PrefetchMark> marks;  ///< indexed by page; empty without a trace
 

@@ -13,19 +13,23 @@
 ///   0                      header          kHeaderBytes
 ///   kHeaderBytes           page table      page_count * sizeof(PageEntry)
 ///   ...                    pages           stored bytes from page 0 on, without gaps: distance
-///                                          pages, cap pages, mask pages
-///   file_bytes - 704       header's copy   kHeaderBytes
+///                                          pages, cap pages, field pages, mask pages
+///   file_bytes - 760       header's copy   kHeaderBytes
 namespace planetree::storage {
 
 static_assert(std::endian::native == std::endian::little,
               "planetree reads and writes its structs in place: little-endian machines only");
 
 inline constexpr std::uint8_t kMagic[8] = {0x89, 'P', 'T', 'R', 'E', 'E', 0x0d, 0x0a};
-inline constexpr std::uint16_t kFormatVersion = 12;
-inline constexpr std::size_t kHeaderBytes = 704;
+inline constexpr std::uint16_t kFormatVersion = 13;
+inline constexpr std::size_t kHeaderBytes = 760;
 inline constexpr std::uint64_t kKnownIncompatibleFeatures = 0;
 inline constexpr std::uint32_t kMinPageBytes = 4096;
 inline constexpr std::uint32_t kMaxPageBytes = 262144;
+/// Maximum number of grid points of a field. A field page has at most page_bytes /
+/// kFieldPointShare.
+inline constexpr std::uint64_t kMaxFieldPoints = std::uint64_t{1} << 20;
+inline constexpr std::uint32_t kFieldPointShare = 8;
 inline constexpr std::uint64_t kNoTriangle = ~std::uint64_t{0};
 
 enum class VertexKind : std::uint8_t { kFloat32 = 0, kFloat64 = 1 };
@@ -98,7 +102,12 @@ struct ModelRecord {
   double openness;
   SideRule side_rule;           ///< how queries decide sides by default
   std::uint8_t side_is_chosen;  ///< 1: the builder was told side_rule; 0: it follows from openness
-  std::uint8_t side_reserved[6];  ///< zero
+  std::uint8_t side_reserved[6];   ///< zero
+  double field_lower[3];           ///< coarse field: first grid point; model frame
+  double field_step;               ///< distance from grid point to grid point; model frame
+  double field_quantum;            ///< unit of stored surface points; model frame
+  std::uint32_t field_size[3];     ///< grid points along each axis; 0: there is no field
+  std::uint32_t field_page_count;  ///< field pages, between cap pages and mask pages
 
   [[nodiscard]] bool has_region() const noexcept { return input_triangles > 0; }
   /// Number of usable triangles of the whole input.
@@ -106,7 +115,7 @@ struct ModelRecord {
     return has_region() ? input_triangles : triangle_count;
   }
 };
-static_assert(sizeof(ModelRecord) == 576);
+static_assert(sizeof(ModelRecord) == 632);
 
 struct FileHeader {
   std::uint8_t magic[8];                ///< kMagic
@@ -130,10 +139,15 @@ struct FileHeader {
   [[nodiscard]] std::uint32_t first_mask_page() const noexcept {
     return page_count - (model.mask_page_count < page_count ? model.mask_page_count : page_count);
   }
-  /// Number of the first cap page; first_mask_page() if there is none. All pages before it are
+  /// Number of the first field page; first_mask_page() if there is none.
+  [[nodiscard]] std::uint32_t first_field_page() const noexcept {
+    const std::uint32_t end = first_mask_page();
+    return end - (model.field_page_count < end ? model.field_page_count : end);
+  }
+  /// Number of the first cap page; first_field_page() if there is none. All pages before it are
   /// distance pages.
   [[nodiscard]] std::uint32_t first_cap_page() const noexcept {
-    const std::uint32_t end = first_mask_page();
+    const std::uint32_t end = first_field_page();
     return end - (model.cap_page_count < end ? model.cap_page_count : end);
   }
 };
@@ -145,7 +159,7 @@ enum class Codec : std::uint32_t { kStored = 0, kLz4 = 1 };
 
 /// Entry of one page in the page table. The page's key is the minimum octcode of its subtrees and
 /// an ordinal among the pages with that octcode. Distance pages are numbered first, then cap pages,
-/// then mask pages, each kind in the order of keys.
+/// field pages and mask pages, each kind in the order of keys.
 struct PageEntry {
   std::uint64_t offset;        ///< offset of the stored bytes in the file
   std::uint64_t check;         ///< XXH3-64 of the stored bytes seeded with the page number,

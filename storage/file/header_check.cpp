@@ -95,8 +95,8 @@ Result<void> check_tiling(const FileHeader& header, std::span<const PageEntry> e
       return bad_entry(page, "the page does not start where the one before ends");
     }
     if (const Result<void> checked = check_entry(header, page, entry); !checked) return checked;
-    if (page > 0 && page != header.first_cap_page() && page != header.first_mask_page() &&
-        !key_less(entries[page - 1], entry)) {
+    if (page > 0 && page != header.first_cap_page() && page != header.first_field_page() &&
+        page != header.first_mask_page() && !key_less(entries[page - 1], entry)) {
       return bad_entry(page, "the page's key does not follow the one before");
     }
     offset += entry.stored_bytes;
@@ -112,6 +112,17 @@ Result<void> check_tiling(const FileHeader& header, std::span<const PageEntry> e
                       "no page is as large as the header states");
   }
   return {};
+}
+
+// Number of pages that the points of the field take; more than any file has if there are too many.
+std::uint64_t field_pages(const FileHeader& header) noexcept {
+  const std::uint64_t in_page = header.page_bytes / kFieldPointShare;
+  std::uint64_t points = 1;
+  for (const std::uint32_t size : header.model.field_size) {
+    points *= size;
+    if (points > kMaxFieldPoints) return ~std::uint64_t{0};
+  }
+  return (points + in_page - 1) / in_page;
 }
 
 }  // namespace
@@ -133,10 +144,14 @@ Result<void> check_header(const FileHeader& header, std::uint64_t actual_bytes) 
   if (!all_zero(header.reserved)) {
     return bad_header(offsetof(FileHeader, reserved), "the header's reserved bytes are not zero");
   }
-  if (header.model.mask_page_count >= header.page_count ||
-      header.model.cap_page_count >= header.page_count - header.model.mask_page_count) {
-    return bad_model(offsetof(ModelRecord, mask_page_count),
-                     "there are only pages of the mask and of caps");
+  if (std::uint64_t{header.model.mask_page_count} + header.model.field_page_count +
+          header.model.cap_page_count >=
+      header.page_count) {
+    return bad_model(offsetof(ModelRecord, mask_page_count), "there is no page of the tree");
+  }
+  if (field_pages(header) != header.model.field_page_count) {
+    return bad_model(offsetof(ModelRecord, field_page_count),
+                     "the field has not as many pages as its points take");
   }
   return check_model(header.model);
 }

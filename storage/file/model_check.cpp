@@ -163,6 +163,29 @@ Result<void> check_caps(const ModelRecord& model) noexcept {
   return {};
 }
 
+// A grid of at least two points along each axis, whose lengths are those of a model frame.
+bool is_field(const ModelRecord& model) noexcept {
+  constexpr double kMinLength = 0x1p-40, kMaxLength = 4;
+  if (!all_finite(model.field_lower)) return false;
+  for (const std::uint32_t size : model.field_size) {
+    if (size < 2) return false;
+  }
+  return model.field_step >= kMinLength && model.field_step <= kMaxLength &&
+         model.field_quantum >= kMinLength && model.field_quantum <= kMaxLength;
+}
+
+Result<void> check_field(const ModelRecord& model) noexcept {
+  constexpr ModelRecord kNothing{};
+  const bool is_none =
+      std::memcmp(model.field_lower, kNothing.field_lower, sizeof model.field_lower) == 0 &&
+      std::memcmp(model.field_size, kNothing.field_size, sizeof model.field_size) == 0 &&
+      model.field_step == 0 && model.field_quantum == 0;
+  if (model.field_page_count > 0 ? !is_field(model) : !is_none) {
+    return bad_model(offsetof(ModelRecord, field_lower), "the field's grid is out of range");
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<void> check_model(const ModelRecord& model) noexcept {
@@ -201,6 +224,7 @@ Result<void> check_model(const ModelRecord& model) noexcept {
   if (const Result<void> checked = check_mask(model); !checked) return checked;
   if (const Result<void> checked = check_region(model); !checked) return checked;
   if (const Result<void> checked = check_unbalanced_edges(model); !checked) return checked;
+  if (const Result<void> checked = check_field(model); !checked) return checked;
   return check_caps(model);
 }
 

@@ -26,7 +26,9 @@ constexpr Fields kModelFields[] = {{offsetof(ModelRecord, triangle_count), 8, 6}
                                    {offsetof(ModelRecord, mask_cell_count), 8, 1},
                                    {offsetof(ModelRecord, mask_page_count), 4, 1},
                                    {offsetof(ModelRecord, mask_levels), 1, 1},
-                                   {offsetof(ModelRecord, input_triangles), 8, 8}};
+                                   {offsetof(ModelRecord, input_triangles), 8, 8},
+                                   {offsetof(ModelRecord, field_lower), 8, 5},
+                                   {offsetof(ModelRecord, field_size), 4, 4}};
 
 }  // namespace
 

@@ -106,7 +106,7 @@ void decode_and_look_up(std::uint8_t choices, std::span<const std::byte> first,
                         std::span<const std::byte> second) {
   PageInfo info;
   info.page_bytes = (choices & kLargePages) != 0 ? 65536 : 4096;
-  info.first_page = kFirstPage;
+  info.first_page = info.tree_pages = kFirstPage;
   info.page_count = kPageCount;
   info.shape.float64 = (choices & kFloat64) != 0;
   info.page_number = kFirstPage;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "octree/field/field_page.h"
 #include "octree/page/mask_streams.h"
 #include "octree/page/page_streams.h"
 #include "storage/file/file_layout.h"
@@ -111,6 +112,11 @@ FormatStruct model_fields() {
       .PLANETREE_FIELD(ModelRecord, side_rule)
       .PLANETREE_FIELD(ModelRecord, side_is_chosen)
       .PLANETREE_FIELD(ModelRecord, side_reserved)
+      .PLANETREE_FIELD(ModelRecord, field_lower)
+      .PLANETREE_FIELD(ModelRecord, field_step)
+      .PLANETREE_FIELD(ModelRecord, field_quantum)
+      .PLANETREE_FIELD(ModelRecord, field_size)
+      .PLANETREE_FIELD(ModelRecord, field_page_count)
       .take();
 }
 
@@ -177,14 +183,25 @@ FormatStruct mask_page_head_fields() {
       .take();
 }
 
+FormatStruct field_page_head_fields() {
+  using octree::FieldPageHead;
+  return FieldList<FieldPageHead>("Field page")
+      .PLANETREE_FIELD(FieldPageHead, page_number)
+      .PLANETREE_FIELD(FieldPageHead, ordinal)
+      .PLANETREE_FIELD(FieldPageHead, octcode)
+      .PLANETREE_FIELD(FieldPageHead, point_count)
+      .PLANETREE_FIELD(FieldPageHead, reserved)
+      .take();
+}
+
 #undef PLANETREE_FIELD
 
 }  // namespace
 
 const std::vector<FormatStruct>& format_structs() {
-  static const std::vector<FormatStruct> all = {header_fields(),          model_fields(),
-                                                unbalanced_edge_fields(), entry_fields(),
-                                                page_head_fields(),       mask_page_head_fields()};
+  static const std::vector<FormatStruct> all = {
+      header_fields(),    model_fields(),          unbalanced_edge_fields(), entry_fields(),
+      page_head_fields(), mask_page_head_fields(), field_page_head_fields()};
   return all;
 }
 

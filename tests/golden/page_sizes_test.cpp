@@ -90,7 +90,8 @@ TEST(PageSizes, GiveTheSameTree) {
     };
     EXPECT_EQ(ids(tree), ids(expected)) << page_bytes;
   }
-  EXPECT_EQ(pages_before, 2u);
+  // The tree, the field and the mask.
+  EXPECT_EQ(pages_before, 3u);
 }
 
 }  // namespace

@@ -11,14 +11,14 @@
 namespace planetree::golden {
 namespace {
 
-struct Head {
+struct MaskHead {
   std::uint32_t page_number, ordinal;
   std::uint64_t octcode;
   std::uint16_t records, roots, nodes, page_links, plain, corners, special, planes;
   std::uint16_t listed, block_links;
   std::uint32_t reserved;
 };
-static_assert(sizeof(Head) == 40);
+static_assert(sizeof(MaskHead) == 40);
 
 class MaskPageReader {
  public:
@@ -140,7 +140,7 @@ class MaskPageReader {
       const SpecListedBlock block{block_octants_.at(block_), block_links_.at(block_)};
       require(block.octants != 0, "a listed block without an octant");
       require(block.link >> 31 == 1, "a list of nodes");
-      require((block.link & 0x7fffffff) / (header_.page_bytes / 64) < header_.d(), "a list's page");
+      require((block.link & 0x7fffffff) / (header_.page_bytes / 64) < header_.e(), "a list's page");
       require(i == 0 || record.blocks.back().link < block.link, "order of a list");
       record.blocks.push_back(block);
     }
@@ -162,7 +162,7 @@ class MaskPageReader {
   const SpecHeader& header_;
   std::uint32_t number_;
   StreamReader layout_;
-  Head head_{};
+  MaskHead head_{};
   std::vector<std::uint8_t> kinds_, corner_bits_, plane_counts_;
   std::vector<std::uint8_t> higher_, block_counts_, block_octants_, slab_lowers_, slab_uppers_;
   std::vector<std::uint16_t> slab_directions_;

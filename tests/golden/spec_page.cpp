@@ -129,7 +129,7 @@ class PageReader {
   std::uint32_t page_link(std::size_t at) const {
     const std::uint32_t link = page_links_.at(at);
     const std::uint32_t page = (link & 0x7fffffff) / (header_.page_bytes / 64);
-    require(number_ < page && page < (of_caps_ ? header_.d() : header_.c()), "a page link");
+    require(number_ < page && page < (of_caps_ ? header_.e() : header_.c()), "a page link");
     return link;
   }
 

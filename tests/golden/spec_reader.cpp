@@ -30,7 +30,7 @@ std::uint64_t hash64(Bytes bytes, std::uint64_t seed) {
 bool is_whole(Bytes header) {
   constexpr unsigned char kMagic[8] = {0x89, 'P', 'T', 'R', 'E', 'E', 0x0d, 0x0a};
   return std::memcmp(header.data(), kMagic, 8) == 0 &&
-         hash64(header.first(696), 0) == get<std::uint64_t>(header, 696);
+         hash64(header.first(752), 0) == get<std::uint64_t>(header, 752);
 }
 
 // "Region": sides within the mesh's box are walls.
@@ -62,13 +62,22 @@ void read_caps(Bytes model, SpecHeader& read) {
        {read.cap_pages > 0, read.cap_block_count > 0, read.unbalanced_edges > 0})
     require(has_some == (read.cap_count > 0), "caps");
   require((read.cap_node_count > 0) == (read.cap_count > 16), "nodes of caps");
-  require(read.mask_pages + read.cap_pages < read.page_count, "no distance page");
   for (std::size_t at = 553; at < 560; ++at)
     require(get<std::uint8_t>(model, at) == 0, "reserved bytes of caps");
 }
 
+void read_field(Bytes model, SpecHeader& read) {
+  read.field_lower = get<SpecPoint>(model, 576);
+  read.field_step = get<double>(model, 600);
+  read.field_quantum = get<double>(model, 608);
+  read.field_size = get<std::array<std::uint32_t, 3>>(model, 616);
+  read.field_pages = get<std::uint32_t>(model, 628);
+  const std::uint64_t in_page = read.page_bytes / 8;
+  require(read.field_pages == (read.field_points() + in_page - 1) / in_page, "pages of the field");
+}
+
 SpecHeader read_header(Bytes header) {
-  const Bytes model = header.subspan(80, 576);
+  const Bytes model = header.subspan(80, 632);
   SpecHeader read{};
   read.page_bytes = get<std::uint32_t>(header, 12);
   read.page_count = get<std::uint32_t>(header, 64);
@@ -83,7 +92,7 @@ SpecHeader read_header(Bytes header) {
   read.stray_edge = get<double>(model, 504);
   read.openness = get<double>(model, 560);
   read.by_surface = get<std::uint8_t>(model, 568) == 1;
-  read.side_is_chosen = get<std::uint8_t>(model, 521) == 1;
+  read.side_is_chosen = get<std::uint8_t>(model, 569) == 1;
   read.centre = get<SpecPoint>(model, 96);
   read.sample = get<SpecPoint>(model, 120);
   read.sample_triangle = get<std::uint64_t>(model, 144);
@@ -96,6 +105,9 @@ SpecHeader read_header(Bytes header) {
   read.mask_pages = get<std::uint32_t>(model, 376);
   read.mask_levels = get<std::uint8_t>(model, 380);
   read_caps(model, read);
+  read_field(model, read);
+  require(std::uint64_t{read.mask_pages} + read.field_pages + read.cap_pages < read.page_count,
+          "no distance page");
   read_region(model, read);
   return read;
 }
@@ -111,8 +123,8 @@ bool SpecHeader::has_walls() const {
 
 SpecFile::SpecFile(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {
   const Bytes header = choose_header();
-  require(get<std::uint16_t>(header, 8) == 12, "another version");
-  require(get<std::uint16_t>(header, 10) == 704, "header length");
+  require(get<std::uint16_t>(header, 8) == 13, "another version");
+  require(get<std::uint16_t>(header, 10) == 760, "header length");
   require(get<std::uint64_t>(header, 16) == 0, "unknown features");
   require(get<std::uint64_t>(header, 32) == bytes_.size(), "file length");
   header_ = read_header(header);
@@ -122,33 +134,34 @@ SpecFile::SpecFile(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {
 
 Bytes SpecFile::choose_header() const {
   const Bytes all(bytes_);
-  require(all.size() >= 1449, "too short");
-  if (is_whole(all.first(704))) return all.first(704);
-  require(is_whole(all.last(704)), "no whole header");
-  return all.last(704);
+  require(all.size() >= 1561, "too short");
+  if (is_whole(all.first(760))) return all.first(760);
+  require(is_whole(all.last(760)), "no whole header");
+  return all.last(760);
 }
 
 void SpecFile::check_table(Bytes header) const {
-  const Bytes table = Bytes(bytes_).subspan(704, std::size_t{40} * header_.page_count);
+  const Bytes table = Bytes(bytes_).subspan(760, std::size_t{40} * header_.page_count);
   require(hash64(table, 0) == get<std::uint64_t>(header, 56), "table hash");
   std::vector<std::uint64_t> page_hashes;
-  std::uint64_t end = 704 + table.size();
+  std::uint64_t end = 760 + table.size();
   std::pair<std::uint64_t, std::uint32_t> last_key{};
   for (std::uint32_t k = 0; k < header_.page_count; ++k) {
     page_hashes.push_back(get<std::uint64_t>(entry(k), 8) ^ content_id_);
     require(get<std::uint64_t>(entry(k), 0) == end, "pages do not tile the file");
     end += get<std::uint32_t>(entry(k), 32);
     const std::pair key(get<std::uint64_t>(entry(k), 16), get<std::uint32_t>(entry(k), 24));
-    require(k == 0 || k == header_.c() || k == header_.d() || last_key < key, "order of keys");
+    require(k == 0 || k == header_.c() || k == header_.e() || k == header_.d() || last_key < key,
+            "order of keys");
     last_key = key;
   }
-  require(end == bytes_.size() - 704, "pages do not tile the file");
+  require(end == bytes_.size() - 760, "pages do not tile the file");
   const XXH128_hash_t id = XXH3_128bits(page_hashes.data(), 8 * page_hashes.size());
   require(id.low64 == content_id_ && id.high64 == get<std::uint64_t>(header, 48), "content id");
 }
 
 Bytes SpecFile::entry(std::uint32_t number) const {
-  return Bytes(bytes_).subspan(704 + std::size_t{40} * number, 40);
+  return Bytes(bytes_).subspan(760 + std::size_t{40} * number, 40);
 }
 
 std::vector<std::byte> SpecFile::raw_page(std::uint32_t number) const {

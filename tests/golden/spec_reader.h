@@ -40,11 +40,20 @@ struct SpecHeader {
   double cap_area;
   std::uint32_t cap_pages, cap_root_link;
   unsigned cap_height;
+  SpecPoint field_lower;
+  double field_step, field_quantum;
+  std::array<std::uint32_t, 3> field_size;
+  std::uint32_t field_pages;
   bool has_walls() const;
   /// Whether the surface is not watertight.
   bool open() const { return cap_count > 0; }
+  std::uint64_t field_points() const {
+    return std::uint64_t{field_size[0]} * field_size[1] * field_size[2];
+  }
   /// Number of the first cap page.
-  std::uint32_t c() const { return d() - cap_pages; }
+  std::uint32_t c() const { return e() - cap_pages; }
+  /// Number of the first field page.
+  std::uint32_t e() const { return d() - field_pages; }
   /// Number of the first mask page.
   std::uint32_t d() const { return page_count - mask_pages; }
 };

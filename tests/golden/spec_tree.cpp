@@ -57,7 +57,7 @@ double disc_bound(const SpecDisc& disc, const SpecPoint& q) {
 
 SpecTree::SpecTree(const SpecFile& file, Of of)
     : header_(file.header()), of_caps_(of == Of::kCaps) {
-  const std::uint32_t end = of_caps_ ? header_.d() : header_.c();
+  const std::uint32_t end = of_caps_ ? header_.e() : header_.c();
   for (std::uint32_t k = of_caps_ ? header_.c() : 0; k < end; ++k) pages_.push_back(file.page(k));
 }
 

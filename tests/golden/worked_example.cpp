@@ -114,7 +114,7 @@ std::string list_file(std::span<const std::byte> file) {
   listing.record(format_struct("Header"));
   for (std::uint32_t page = 0; page < page_count; ++page) listing.record(entry);
   for (std::uint32_t page = 0; page < page_count; ++page) {
-    const std::size_t at = 704 + std::size_t{40} * page;
+    const std::size_t at = 760 + std::size_t{40} * page;
     const std::size_t end = get<std::uint64_t>(file, at) + get<std::uint32_t>(file, at + 32);
     list_sequences(file, listing, end);
   }

@@ -34,7 +34,7 @@ TEST_F(BuildControl, ReportsPhasesInOrderAndToTheirEnds) {
   EXPECT_EQ(last_done, last_total);
   EXPECT_EQ(phases, (std::vector{BuildPhase::kReading, BuildPhase::kOrdering, BuildPhase::kMatching,
                                  BuildPhase::kBuildingTree, BuildPhase::kBuildingMask,
-                                 BuildPhase::kWriting}));
+                                 BuildPhase::kBuildingField, BuildPhase::kWriting}));
 }
 
 // Cancels at the first report of progress, then at the second, and so on.

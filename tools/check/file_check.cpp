@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "tools/check/field_check.h"
 #include "tools/check/geometry_check.h"
 #include "tools/check/height_field_check.h"
 #include "tools/check/mask_check.h"
@@ -40,13 +41,14 @@ CheckReport check_file(FileParts& parts, bool full, const CheckProgress& progres
   const TreeSection of_surface = TreeSection::of_surface(parts);
   bool complete = check_tree(parts, of_surface, surface ? &*surface : nullptr, report, progress);
   if (surface) surface->finish(complete);
-  if (header.model.cap_count > 0 || parts.first_cap_page() < parts.first_mask_page()) {
+  if (header.model.cap_count > 0 || parts.first_cap_page() < parts.first_field_page()) {
     if (full) caps.emplace(header, report.issues, true);
     const TreeSection of_caps = TreeSection::of_caps(parts);
     complete = check_tree(parts, of_caps, caps ? &*caps : nullptr, report, progress) && complete;
     if (caps) caps->finish_caps(complete, *surface);
   }
   const auto is_proving = [&] { return full && report.issues.count() == 0; };
+  check_field(parts, is_proving(), report, progress);
   check_mask(parts, is_proving(), report, progress);
   if (is_proving()) check_height_fields(parts, report.issues);
   return report;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cerrno>
+#include <cstring>
 
 #include "query/file/page_decoding.h"
 #include "storage/file/checksum.h"
@@ -165,6 +166,13 @@ std::optional<octree::MaskPageHead> FileParts::mask_head() const {
   octree::MaskStreams streams;
   if (!read(streams)) return {};
   return streams.head;
+}
+
+std::optional<octree::FieldPageHead> FileParts::field_head() const {
+  octree::FieldPageHead head;
+  if (!is_field_page(page_) || raw_.size() < sizeof head) return {};
+  std::memcpy(&head, raw_.data(), sizeof head);
+  return head;
 }
 
 std::optional<Issue> FileParts::decode_page() {

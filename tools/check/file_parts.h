@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "octree/field/field_page.h"
 #include "octree/page/mask_streams.h"
 #include "octree/page/page_streams.h"
 #include "planetree/error.h"
@@ -48,11 +49,18 @@ class FileParts {
   std::uint32_t first_mask_page() const {
     return std::min(header_.first_mask_page(), page_count());
   }
+  /// Number of the first field page.
+  std::uint32_t first_field_page() const {
+    return std::min(header_.first_field_page(), page_count());
+  }
+  bool is_field_page(std::uint32_t page) const {
+    return page >= first_field_page() && page < first_mask_page();
+  }
   /// Number of the first cap page. Pages before it are distance pages.
   std::uint32_t first_cap_page() const { return std::min(header_.first_cap_page(), page_count()); }
   /// Layout of the page read last: of the surface or, if it is a cap page, of the caps.
   octree::BlockShape shape() const {
-    const bool caps = page_ >= first_cap_page() && page_ < first_mask_page();
+    const bool caps = page_ >= first_cap_page() && page_ < first_field_page();
     return caps ? query::cap_shape(header_.model) : query::block_shape(header_.model);
   }
 
@@ -71,6 +79,8 @@ class FileParts {
   bool read(octree::MaskStreams& streams) const;
   /// Head of the page read last, if that is a mask page.
   std::optional<octree::MaskPageHead> mask_head() const;
+  /// Head of the page read last, if that is a field page.
+  std::optional<octree::FieldPageHead> field_head() const;
   /// The page decoded last, which must be a distance page or a cap page. Valid until the next
   /// decode_page().
   FrameView frame() const { return FrameView(frame_.data(), shape()); }

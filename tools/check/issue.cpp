@@ -43,7 +43,8 @@ constexpr std::array<std::string_view, kIssueCodeCount> kNames = {"NOT_PLANETREE
                                                                   "MASK_SLAB",
                                                                   "BLOCK_HEIGHT_FIELD",
                                                                   "REGION",
-                                                                  "CAPS"};
+                                                                  "CAPS",
+                                                                  "FIELD"};
 static_assert(!kNames.back().empty());
 
 }  // namespace

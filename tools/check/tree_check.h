@@ -33,7 +33,7 @@ struct TreeSection {
     const storage::ModelRecord& model = parts.header()->model;
     return {true,
             parts.first_cap_page(),
-            parts.first_mask_page(),
+            parts.first_field_page(),
             model.cap_root_link,
             model.cap_height,
             model.cap_node_count,

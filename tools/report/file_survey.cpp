@@ -26,7 +26,7 @@ class Surveyor {
     const std::uint32_t root = parts_.header()->model.root_link;
     pending_.add({links_.page(root), links_.slot(root), links_.is_leaf(root)}, 0);
     for (std::uint32_t page = 0; page < parts_.page_count(); ++page) {
-      PageRow row{page, parts_.entries()[page], {}, {}, false};
+      PageRow row{page, parts_.entries()[page], {}, {}, {}, false};
       survey_page(row);
       if (!visit(row)) break;
     }
@@ -38,6 +38,7 @@ class Surveyor {
     std::optional<Issue> issue = parts_.read_page(row.number);
     if (!issue) issue = parts_.decode_page();
     const bool mask = row.number >= parts_.first_mask_page();
+    if (parts_.is_field_page(row.number)) return survey_field_page(row, std::move(issue));
     const bool caps = !mask && row.number >= parts_.first_cap_page();
     row.is_of_caps = caps;
     if (issue) {
@@ -58,6 +59,12 @@ class Surveyor {
       survey_.height_fields += frame.block(slot).header().is_height_field() ? 1 : 0;
     });
     add_levels(row.number);
+  }
+
+  void survey_field_page(PageRow& row, std::optional<Issue> issue) {
+    if (issue) return survey_.issues.add(*std::move(issue));
+    row.field = parts_.field_head();
+    add(stream_rows(*row.field), survey_.field_streams);
   }
 
   MaskLevelRow& mask_level(std::size_t level) {
@@ -87,16 +94,19 @@ class Surveyor {
     const bool whole = parts_.read(streams);
     assert(whole);
     static_cast<void>(whole);
-    const std::vector<StreamRow> rows = stream_rows(streams, parts_.shape());
+    add(stream_rows(streams, parts_.shape()), sums);
+    return streams.head;
+  }
+
+  static void add(const std::vector<StreamRow>& rows, std::vector<StreamRow>& sums) {
     if (sums.empty()) {
       sums = rows;
-      return streams.head;
+      return;
     }
     for (std::size_t i = 0; i < rows.size(); ++i) {
       sums[i].elements += rows[i].elements;
       sums[i].bytes += rows[i].bytes;
     }
-    return streams.head;
   }
 
   LevelRow& level(std::uint32_t depth) {

@@ -64,13 +64,17 @@ Json mask_head_json(const octree::MaskPageHead& head) {
           {"block_link_count", head.block_link_count}};
 }
 
-template <class Streams>
-Json streams_json(const FileParts& parts) {
+Json field_head_json(const octree::FieldPageHead& head) {
+  return {{"page_number", head.page_number},
+          {"ordinal", head.ordinal},
+          {"octcode", fmt::format("0x{:016x}", head.octcode)},
+          {"point_count", head.point_count}};
+}
+
+Json rows_json(const std::vector<StreamRow>& stream_rows) {
   Json rows = Json::array();
-  Streams streams;
-  if (!parts.read(streams)) return rows;
   std::uint64_t offset = 0;
-  for (const StreamRow& row : stream_rows(streams, parts.shape())) {
+  for (const StreamRow& row : stream_rows) {
     rows.push_back({{"stream", row.name},
                     {"offset", offset},
                     {"elements", row.elements},
@@ -78,6 +82,12 @@ Json streams_json(const FileParts& parts) {
     offset += row.bytes;
   }
   return rows;
+}
+
+template <class Streams>
+Json streams_json(const FileParts& parts) {
+  Streams streams;
+  return parts.read(streams) ? rows_json(stream_rows(streams, parts.shape())) : Json::array();
 }
 
 Json vector_json(const std::array<float, 3>& values) { return {values[0], values[1], values[2]}; }
@@ -116,6 +126,12 @@ std::string numbers_text(const Json& vector) {
   return text;
 }
 
+std::string_view kind_of(const PageRow& row) {
+  if (row.mask) return "mask";
+  if (row.field) return "field";
+  return row.is_of_caps ? "caps" : "distance";
+}
+
 }  // namespace
 
 std::string page_heading() {
@@ -131,6 +147,10 @@ std::string page_line(const PageRow& row) {
     return fmt::format("{} {:>32} {:>9} {:>9}\n", key,
                        fmt::format("mask of {} cells", row.mask->record_count), entry.raw_bytes,
                        entry.stored_bytes);
+  if (row.field)
+    return fmt::format("{} {:>32} {:>9} {:>9}\n", key,
+                       fmt::format("field of {} points", row.field->point_count), entry.raw_bytes,
+                       entry.stored_bytes);
   if (!row.head)
     return fmt::format("{} {:>32} {:>9} {:>9}\n", key, "unreadable", entry.raw_bytes,
                        entry.stored_bytes);
@@ -142,10 +162,11 @@ std::string page_line(const PageRow& row) {
 }
 
 Json page_json(const PageRow& row) {
-  Json json = {{"page", row.number}, {"readable", row.head || row.mask}};
+  Json json = {{"page", row.number}, {"readable", row.head || row.mask || row.field}};
   json.update(entry_json(row.entry));
   if (row.mask) json["mask_cells"] = row.mask->record_count;
-  if (row.mask || row.head) json["kind"] = row.mask ? "mask" : row.is_of_caps ? "caps" : "distance";
+  if (row.field) json["field_points"] = row.field->point_count;
+  if (json["readable"]) json["kind"] = kind_of(row);
   if (!row.head) return json;
   const octree::PageHead& head = *row.head;
   json["subtrees"] = head.root_node_count + head.root_block_count;
@@ -164,6 +185,10 @@ Json page_details(const FileParts& parts, const PageRow& row, bool decoded) {
   if (row.mask) {
     details["head"] = mask_head_json(*row.mask);
     details["streams"] = streams_json<octree::MaskStreams>(parts);
+  }
+  if (row.field) {
+    details["head"] = field_head_json(*row.field);
+    details["streams"] = rows_json(stream_rows(*row.field));
   }
   if (row.head && decoded) details["nodes"] = nodes_json(parts, false);
   return details;

@@ -14,7 +14,7 @@ StreamRow row(std::string_view name, StreamGroup group, const octree::ByteSplit<
 
 std::string_view group_name(StreamGroup group) {
   static constexpr std::array<std::string_view, kStreamGroupCount> kNames = {
-      "heads", "nodes", "blocks", "corners", "vertices", "ids", "mask", "mask_lists"};
+      "heads", "nodes", "blocks", "corners", "vertices", "ids", "mask", "mask_lists", "field"};
   return kNames[static_cast<std::size_t>(group)];
 }
 
@@ -48,6 +48,14 @@ std::vector<StreamRow> stream_rows(const octree::RawStreams& streams,
       shape.wide_ids ? row("id_steps", kIds, s.id_steps64) : row("id_steps", kIds, s.id_steps32)};
   rows.insert(rows.end(), others.begin(), others.end());
   return rows;
+}
+
+std::vector<StreamRow> stream_rows(const octree::FieldPageHead& head) {
+  const std::uint64_t points = head.point_count, bytes = points * sizeof(std::uint16_t);
+  return {{"field_page_head", StreamGroup::kHead, 1, sizeof head},
+          {"x_steps", StreamGroup::kField, points, bytes},
+          {"y_steps", StreamGroup::kField, points, bytes},
+          {"z_steps", StreamGroup::kField, points, bytes}};
 }
 
 std::vector<StreamRow> stream_rows(const octree::MaskStreams& streams,

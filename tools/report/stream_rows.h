@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "octree/field/field_page.h"
 #include "octree/page/mask_streams.h"
 #include "octree/page/page_streams.h"
 
@@ -19,8 +20,9 @@ enum class StreamGroup : std::uint8_t {
   kIds,
   kMask,       ///< streams of mask pages other than lists
   kMaskLists,  ///< lists of blocks in mask pages
+  kField,      ///< streams of field pages
 };
-inline constexpr std::size_t kStreamGroupCount = 8;
+inline constexpr std::size_t kStreamGroupCount = 9;
 /// The group's name in reports.
 [[nodiscard]] std::string_view group_name(StreamGroup group);
 
@@ -37,6 +39,8 @@ struct StreamRow {
 /// same for all distance pages of a file.
 [[nodiscard]] std::vector<StreamRow> stream_rows(const octree::RawStreams& streams,
                                                  const octree::BlockShape& shape);
+/// The same for a field page.
+[[nodiscard]] std::vector<StreamRow> stream_rows(const octree::FieldPageHead& head);
 /// The same for a mask page.
 [[nodiscard]] std::vector<StreamRow> stream_rows(const octree::MaskStreams& streams,
                                                  const octree::BlockShape& shape);

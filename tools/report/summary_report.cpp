@@ -21,6 +21,7 @@ struct Sections {
   std::uint64_t page_table = 0;
   std::uint64_t distance_pages = 0;
   std::uint64_t cap_pages = 0;
+  std::uint64_t field_pages = 0;
   std::uint64_t mask_pages = 0;
 };
 
@@ -29,9 +30,10 @@ Sections sections_of(const FileParts& parts) {
   sections.headers = 2 * storage::kHeaderBytes;
   sections.page_table = parts.entries().size_bytes();
   for (std::uint32_t page = 0; page < parts.page_count(); ++page)
-    (page < parts.first_cap_page()    ? sections.distance_pages
-     : page < parts.first_mask_page() ? sections.cap_pages
-                                      : sections.mask_pages) += parts.entries()[page].stored_bytes;
+    (page < parts.first_cap_page()     ? sections.distance_pages
+     : page < parts.first_field_page() ? sections.cap_pages
+     : page < parts.first_mask_page()  ? sections.field_pages
+                                       : sections.mask_pages) += parts.entries()[page].stored_bytes;
   return sections;
 }
 
@@ -59,6 +61,24 @@ Json mask_row_json(const MaskLevelRow& row) {
           {"special", row.special}};
 }
 
+std::string field_text(const storage::ModelRecord& model) {
+  if (model.field_page_count == 0) return {};
+  const std::uint32_t(&size)[3] = model.field_size;
+  return fmt::format(
+      "  field       {} x {} x {} grid points, {:.3g} apart, with the nearest surface points to "
+      "{:.2g}\n",
+      size[0], size[1], size[2], std::ldexp(model.field_step, -model.scale_exponent),
+      std::ldexp(model.field_quantum, -model.scale_exponent));
+}
+
+Json field_json(const storage::ModelRecord& model) {
+  if (model.field_page_count == 0) return nullptr;
+  return {{"size", model.field_size},
+          {"step", std::ldexp(model.field_step, -model.scale_exponent)},
+          {"quantum", std::ldexp(model.field_quantum, -model.scale_exponent)},
+          {"pages", model.field_page_count}};
+}
+
 std::string mask_text(const FileSurvey& survey, const Sections& sections, std::uint64_t triangles) {
   if (survey.mask.empty()) return {};
   const MaskLevelRow sum = mask_sum(survey);
@@ -70,9 +90,13 @@ std::string mask_text(const FileSurvey& survey, const Sections& sections, std::u
       grouped_count(sum.special), share(sections.mask_pages, triangles));
 }
 
+std::array<const std::vector<StreamRow>*, 4> streams_of(const FileSurvey& survey) {
+  return {&survey.streams, &survey.cap_streams, &survey.field_streams, &survey.mask_streams};
+}
+
 std::array<std::uint64_t, kStreamGroupCount> bytes_by_group(const FileSurvey& survey) {
   std::array<std::uint64_t, kStreamGroupCount> bytes{};
-  for (const auto* rows : {&survey.streams, &survey.cap_streams, &survey.mask_streams})
+  for (const auto* rows : streams_of(survey))
     for (const StreamRow& row : *rows) bytes[static_cast<std::size_t>(row.group)] += row.bytes;
   return bytes;
 }
@@ -84,7 +108,7 @@ Json bytes_json(const FileParts& parts, const FileSurvey& survey) {
   for (std::size_t i = 0; i < kStreamGroupCount; ++i)
     raw[std::string(group_name(static_cast<StreamGroup>(i)))] = groups[i];
   Json streams = Json::object();
-  for (const auto* rows : {&survey.streams, &survey.cap_streams, &survey.mask_streams})
+  for (const auto* rows : streams_of(survey))
     for (const StreamRow& row : *rows) {
       // Streams of distance pages and of cap pages have the same names.
       const std::string name(row.name);
@@ -94,6 +118,7 @@ Json bytes_json(const FileParts& parts, const FileSurvey& survey) {
           {"page_table", sections.page_table},
           {"distance_pages", sections.distance_pages},
           {"cap_pages", sections.cap_pages},
+          {"field_pages", sections.field_pages},
           {"mask_pages", sections.mask_pages},
           {"within_pages", raw},
           {"within_pages_by_stream", streams}};
@@ -229,6 +254,7 @@ Json summary_json(const FileParts& parts, const FileSurvey& survey) {
                {"bytes_per_triangle", share(header.file_bytes, model.triangle_count)},
                {"format_version", header.version},
                {"content_id", content_id_text(header.content_id)},
+               {"field", field_json(model)},
                {"mask", mask_row_json(mask_sum(survey))},
                {"special_configurations", mask_sum(survey).special},
                {"lists_of_blocks", survey.lists},
@@ -263,15 +289,16 @@ std::string summary_text(const std::string& name, const FileParts& parts,
       "triangles a block\n",
       model.height, grouped_count(model.node_count), grouped_count(model.block_count),
       grouped_count(survey.height_fields), share(model.triangle_count, model.block_count));
+  text += field_text(model);
   text += mask_text(survey, sections, model.triangle_count);
   text += fmt::format(
       "  file        {}, {:.2f} bytes a triangle: headers {}, page table {}, distance pages {}, {}"
-      "mask pages {}\n",
+      "field pages {}, mask pages {}\n",
       short_bytes(parts.actual_bytes()), share(header.file_bytes, model.triangle_count),
       short_bytes(sections.headers), short_bytes(sections.page_table),
       short_bytes(sections.distance_pages),
       model.cap_count > 0 ? fmt::format("cap pages {}, ", short_bytes(sections.cap_pages)) : "",
-      short_bytes(sections.mask_pages));
+      short_bytes(sections.field_pages), short_bytes(sections.mask_pages));
   text += fmt::format("  pages       {}, {} each in memory; {}\n", grouped_count(header.page_count),
                       short_bytes(header.page_bytes), raw_text(survey));
   text += fmt::format("  content id  {}\n", content_id_text(header.content_id));

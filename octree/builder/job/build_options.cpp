@@ -1,5 +1,6 @@
 #include "octree/builder/job/build_options.h"
 
+#include <bit>
 #include <cstdio>
 #include <span>
 #include <string>
@@ -8,6 +9,14 @@
 #include "storage/file/checksum.h"
 
 namespace planetree::octree {
+
+Result<void> BuildOptions::check() const {
+  if (!std::has_single_bit(page_bytes) || page_bytes < storage::kMinPageBytes ||
+      page_bytes > storage::kMaxPageBytes)
+    return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
+                      "a page of %u bytes; use a power of two from 4K to 256K", page_bytes);
+  return box ? box->check() : Result<void>();
+}
 
 std::filesystem::path BuildOptions::output_directory(const std::filesystem::path& output) {
   return output.has_parent_path() ? output.parent_path() : ".";

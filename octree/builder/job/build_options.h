@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "octree/builder/job/region_box.h"
+#include "planetree/error.h"
 #include "storage/file/file_layout.h"
 
 namespace planetree::octree {
@@ -28,6 +29,8 @@ struct BuildOptions {
   /// input and options left.
   bool resume = false;
 
+  /// errors  kBadArgument: page_bytes is none of a page; the box is none, see RegionBox::check()
+  Result<void> check() const;
   /// Directory of the output.
   static std::filesystem::path output_directory(const std::filesystem::path& output);
   /// Directory in which a build of this output spills.

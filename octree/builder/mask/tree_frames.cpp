@@ -52,7 +52,7 @@ Result<void> TreeFrames::decode(std::uint32_t number, std::span<std::byte> frame
   const auto raw = mask_->encode(number - tree_pages, tree_pages);
   if (!raw) return raw.error();
   PageInfo info = trees_.surface->info_of_page(0);
-  info.first_page = tree_pages;
+  info.first_page = info.tree_pages = tree_pages;
   info.page_count = mask_->size();
   info.page_number = number;
   info.octcode = raw->octcode;

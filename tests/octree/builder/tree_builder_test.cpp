@@ -148,7 +148,8 @@ TEST_F(TreeBuilder, ReportsEachPhaseInTurnToItsEnd) {
   ASSERT_TRUE(build());
   const std::vector<BuildPhase> expected{BuildPhase::kReading,      BuildPhase::kOrdering,
                                          BuildPhase::kMatching,     BuildPhase::kBuildingTree,
-                                         BuildPhase::kBuildingMask, BuildPhase::kWriting};
+                                         BuildPhase::kBuildingMask, BuildPhase::kBuildingField,
+                                         BuildPhase::kWriting};
   EXPECT_EQ(recorder_.phases, expected);
   EXPECT_EQ(recorder_.last_done, recorder_.last_total);
 }

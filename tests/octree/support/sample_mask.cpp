@@ -185,7 +185,7 @@ MaskPages::MaskPages(const MaskTree& tree, std::uint32_t page_bytes, std::uint32
 PageInfo MaskPages::info(std::uint32_t page) const {
   PageInfo info;
   info.page_bytes = plan_.page_bytes;
-  info.first_page = first_page_;
+  info.first_page = info.tree_pages = first_page_;
   info.page_count = static_cast<std::uint32_t>(plan_.pages.size());
   info.shape.float64 = float64_;
   info.page_number = first_page_ + page;

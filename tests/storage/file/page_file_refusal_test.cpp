@@ -94,7 +94,7 @@ TEST_F(PageFileRefusal, RefusesBadModelFields) {
                          "triangle indices");
   }
   expect_model_refused([](ModelRecord& m) { m.height = 97; }, "height");
-  expect_model_refused([](ModelRecord& m) { m.mask_page_count = ~0u; }, "only pages of the mask");
+  expect_model_refused([](ModelRecord& m) { m.mask_page_count = ~0u; }, "no page of the tree");
   expect_model_refused([](ModelRecord& m) { m.mask_cell_count = 1; }, "mask's size");
   expect_model_refused([](ModelRecord& m) { m.mask_page_count = 1; }, "mask's size");
   expect_model_refused([](ModelRecord& m) { m.mask_levels = 1; }, "mask's size");
@@ -108,6 +108,20 @@ TEST_F(PageFileRefusal, RefusesBadModelFields) {
   for (const int at : {0, 4}) {
     expect_model_refused([&](ModelRecord& m) { m.reserved[at] = 1; }, "reserved");
   }
+}
+
+TEST_F(PageFileRefusal, RefusesBadFields) {
+  const auto with_grid = [](ModelRecord& m) {
+    m.field_step = m.field_quantum = 0.5;
+    m.field_size[0] = m.field_size[1] = m.field_size[2] = 2;
+  };
+  expect_model_refused(with_grid, "as many pages as its points");
+  expect_model_refused([](ModelRecord& m) { m.field_page_count = 1; }, "as many pages");
+  expect_model_refused([](ModelRecord& m) { m.field_step = 1; }, "grid is out of range");
+  expect_model_refused([](ModelRecord& m) { m.field_lower[2] = 1; }, "grid is out of range");
+  expect_model_refused(
+      [](ModelRecord& m) { m.field_size[0] = m.field_size[1] = m.field_size[2] = 0xffffffff; },
+      "as many pages");
 }
 
 TEST_F(PageFileRefusal, RefusesBadRulesForSides) {

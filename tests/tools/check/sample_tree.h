@@ -104,6 +104,9 @@ struct Forgery {
   std::function<void(std::uint32_t page, RawPage&)> page = [](std::uint32_t, RawPage&) {};
   /// A page of the caps; numbers start at their first page.
   std::function<void(std::uint32_t page, RawPage&)> caps = [](std::uint32_t, RawPage&) {};
+  /// The raw bytes of a field page; numbers start at the first of them.
+  std::function<void(std::uint32_t page, std::vector<std::byte>&)> field =
+      [](std::uint32_t, std::vector<std::byte>&) {};
   /// A page of the mask; numbers start at its first page.
   std::function<void(std::uint32_t page, octree::RawMaskPage&)> mask = [](std::uint32_t,
                                                                           octree::RawMaskPage&) {};
@@ -125,9 +128,15 @@ inline void forge(const std::filesystem::path& from, const std::filesystem::path
   octree::BlockShape cap_shape = shape;
   cap_shape.moments = true;
   const std::uint32_t first_cap_page = file->header().first_cap_page();
+  const std::uint32_t first_field_page = file->header().first_field_page();
   const std::uint32_t first_mask_page = file->header().first_mask_page();
   const auto changed = [&](std::uint32_t page, const std::vector<std::byte>& raw) {
-    if (page < first_mask_page) {
+    if (page >= first_field_page && page < first_mask_page) {
+      std::vector<std::byte> bytes = raw;
+      forgery.field(page - first_field_page, bytes);
+      return bytes;
+    }
+    if (page < first_field_page) {
       const bool caps = page >= first_cap_page;
       RawPage of_tree(raw, caps ? cap_shape : shape);
       (caps ? forgery.caps : forgery.page)(caps ? page - first_cap_page : page, of_tree);
@@ -142,7 +151,8 @@ inline void forge(const std::filesystem::path& from, const std::filesystem::path
     const storage::PageEntry& entry = file->entries()[page];
     std::vector<std::byte> raw(entry.raw_bytes);
     ASSERT_TRUE(file->read_page(page, scratch, raw));
-    if (page == first_cap_page && page < first_mask_page) writer->begin_caps();
+    if (page == first_cap_page && page < first_field_page) writer->begin_caps();
+    if (page == first_field_page && page < first_mask_page) writer->begin_field();
     if (page == first_mask_page) writer->begin_mask();
     const std::vector<std::byte> bytes = changed(page, raw);
     storage::StoredPage stored = storage::compress_page(bytes);

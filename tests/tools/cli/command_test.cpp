@@ -114,7 +114,7 @@ TEST_F(Command, EveryErrorIsOneLine) {
        "planetree: inspect: --slice requires --image; see planetree inspect --help"},
       {{"inspect", "cut.ptree"},
        1,
-       "planetree: cut.ptree: FILE_LENGTH: at byte 100: the file should have at least 1408 bytes "
+       "planetree: cut.ptree: FILE_LENGTH: at byte 100: the file should have at least 1520 bytes "
        "and has 100; restore it from a copy or build it again"},
       {{"verify", "none.ptree"},
        2,

@@ -105,6 +105,7 @@ TEST(Why, InspectCountsColoursByLevel) {
   const std::uint64_t bytes = report["bytes"]["headers"].get<std::uint64_t>() +
                               report["bytes"]["page_table"].get<std::uint64_t>() +
                               report["bytes"]["distance_pages"].get<std::uint64_t>() +
+                              report["bytes"]["field_pages"].get<std::uint64_t>() +
                               report["bytes"]["mask_pages"].get<std::uint64_t>();
   EXPECT_EQ(bytes, std::filesystem::file_size(kBoxes));
 }

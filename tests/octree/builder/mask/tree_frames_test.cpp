@@ -97,7 +97,7 @@ TEST(TreeFrames, MatchDecodedMaskPages) {
     const auto raw = model.mask.encode(i, first);
     ASSERT_TRUE(raw);
     PageInfo info = model.tree.tree->info_of_page(0);
-    info.first_page = first;
+    info.first_page = info.tree_pages = first;
     info.page_count = model.mask.size();
     info.page_number = first + i;
     info.octcode = raw->octcode;
