@@ -60,6 +60,10 @@ inline constexpr double kValueRounding = 0x1p-40;
 /// them, as a share of the greatest: differences, squares and sums err by 8 v, three interpolations
 /// by 6 v.
 inline constexpr double kFieldRounding = 16 * 0x1p-24;
+/// Error of a stored point by rounding in double, as a share of the greatest coordinate M. A grid
+/// point moves by sqrt(3) u M, which counts twice; the surface point by kNearestPointRounding along
+/// each axis, 4 sqrt(3) u M. Together they are below 11 u M.
+inline constexpr double kFieldPointRounding = 16 * kDoubleRoundoff;
 /// Relative error of a distance in double, from outside of the grid to it or to a stored point:
 /// scaling, differences, squares, sums and root err by less than 16 u.
 inline constexpr double kFieldNormRounding = 0x1p-40;

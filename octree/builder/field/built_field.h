@@ -20,8 +20,9 @@ class BuiltField {
   /// No field.
   BuiltField() = default;
 
-  /// Finds the field. A model has none if it is small, or if a stray is nearest to a grid point:
-  /// stored points reach no farther than the grid.
+  /// Finds the field. A model has none if it is small, if a stray is nearest to a grid point, since
+  /// stored points reach no farther than the grid, or if it is so far from the origin that its
+  /// coordinates are rounded to more than 2^-8 quanta.
   ///
   /// trees       of the model; only the surface's is searched.
   /// region      the part of space whose surface the file has; the grid covers that of the core.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "octree/geometry/error_bounds.h"
 #include "octree/geometry/octcode.h"
 #include "octree/geometry/strict_math.h"
 #include "octree/nearest/nearest.h"
@@ -65,8 +66,11 @@ bool FieldSearch::find(const Point& at, const PageReader& pages, TraversalStats&
     if (!(rounded >= 0 && rounded <= kMaxFieldCoordinate)) return false;
     stored[axis] = static_cast<std::uint16_t>(rounded);
   }
-  // What is left of the uncertainty must cover the interval of the search.
-  return answer.upper - answer.lower <= kMaxSearchError * shape_.quantum;
+  // What is left of the uncertainty must cover the interval of the search, and the rounding of the
+  // coordinates of grid point and surface point.
+  const double largest = std::max(at.cwiseAbs().maxCoeff(), answer.point.cwiseAbs().maxCoeff());
+  const double rounding = kFieldPointRounding * largest;
+  return answer.upper - answer.lower + rounding <= kMaxSearchError * shape_.quantum;
 }
 
 }  // namespace planetree::octree

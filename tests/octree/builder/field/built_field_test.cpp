@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "octree/geometry/triangle_distance.h"
 #include "tests/octree/builder/field/sample_field.h"
@@ -63,6 +64,19 @@ TEST(BuiltField, IsEmptyForManyTrianglesInOnePlace) {
 TEST(BuiltField, IsEmptyWhereSurfaceIsOutOfReach) {
   const Region region(Point(-1, -1, 0.99), Point(-0.9, -0.9, 1), Point(-1, -1, -1), Point(1, 1, 1));
   EXPECT_EQ(SampleField(sphere(5), region).field.page_count(), 0u);
+}
+
+// Far from the origin grid points and surface points are rounded, by more than a field allows.
+TEST(BuiltField, IsEmptyFarFromTheOrigin) {
+  for (const auto& [offset, has_field] :
+       {std::pair{0x1p20, true}, std::pair{0x1p24, true}, std::pair{0x1p30, false}}) {
+    Soup soup = sphere(4);
+    for (auto& triangle : soup)
+      for (Vec3& corner : triangle) corner.x += offset;
+    const SampleField sample(soup);
+    EXPECT_EQ(sample.field.page_count() > 0, has_field) << offset;
+    if (has_field) expect_nearest_points(sample);
+  }
 }
 
 }  // namespace
