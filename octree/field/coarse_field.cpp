@@ -100,20 +100,36 @@ FieldBounds CoarseField::bounds(const Point& query) const {
   return found;
 }
 
-CoarseField::Estimate CoarseField::estimate(const Point& query) const {
-  Estimate found;
-  if (is_empty()) return found;
-  const Point steps = (query - shape_.lower) * steps_per_unit_;
-  if (!(steps.cwiseAbs().maxCoeff() < kMaxSteps)) return found;
+CoarseField::Next CoarseField::next_to(const Point& steps) const {
   const Point within = (steps.array() + 0.5).max(0.0).min(last_.array());
   const FieldPoint& stored = points_[shape_.index_of(static_cast<std::uint32_t>(within[0]),
                                                      static_cast<std::uint32_t>(within[1]),
                                                      static_cast<std::uint32_t>(within[2]))];
   const double reach = (steps * quanta_per_step_ - Point(stored[0], stored[1], stored[2])).norm() *
                        (1 + kFieldNormRounding) * shape_.quantum;
+  return {&stored, reach};
+}
+
+CoarseField::Estimate CoarseField::estimate(const Point& query) const {
+  Estimate found;
+  if (is_empty()) return found;
+  const Point steps = (query - shape_.lower) * steps_per_unit_;
+  if (!(steps.cwiseAbs().maxCoeff() < kMaxSteps)) return found;
+  const double reach = next_to(steps).reach;
   found.upper = reach + shape_.uncertainty();
   found.lower = std::max(0.0, reach - shape_.step);
   found.width = shape_.step * shape_.step / (8 * (reach + shape_.step));
+  return found;
+}
+
+FieldBounds CoarseField::upper_bound(const Point& query) const {
+  FieldBounds found;
+  if (is_empty()) return found;
+  const Point steps = (query - shape_.lower) * steps_per_unit_;
+  if (!(steps.cwiseAbs().maxCoeff() < kMaxSteps)) return found;
+  const Next next = next_to(steps);
+  found.upper = next.reach + shape_.uncertainty();
+  found.point = shape_.lower + shape_.surface_point(*next.stored);
   return found;
 }
 

@@ -57,8 +57,19 @@ class CoarseField {
   };
   /// Looks at the grid point next to a query: a tenth of the work of bounds().
   Estimate estimate(const Point& query) const;
+  /// Bounds the distance from above as estimate() does, and tells the surface point. bounds() errs
+  /// by more far away, where its upper end may exceed this.
+  FieldBounds upper_bound(const Point& query) const;
 
  private:
+  // The grid point next to a query, `steps` from the first one, and the distance of its stored
+  // surface point.
+  struct Next {
+    const FieldPoint* stored;
+    double reach;
+  };
+  Next next_to(const Point& steps) const;
+
   FieldShape shape_;
   const FieldPoint* points_ = nullptr;
   double steps_per_unit_ = 0;

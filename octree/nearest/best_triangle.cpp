@@ -52,6 +52,7 @@ void answer_with(const FieldBounds& bounds, double lower, NearestAnswer& answer)
   answer.distance = answer.upper;
   answer.lower = down(std::max(bounds.lower, lower));
   answer.feature = Feature::kVertex;
+  answer.barycentric = {};
 }
 
 // Whether skipped children of this least squared bound may hold the nearest triangle. An infinite
@@ -77,23 +78,39 @@ bool is_within_error(const NearestAnswer& answer, const NearestLimits& limits) {
   return answer.upper - answer.lower + kValueRounding * answer.upper <= limits.max_error;
 }
 
+// The bounds of the coarse field; its upper end is no greater than what the search was told.
+FieldBounds bounds_of(const CoarseField& field, const Point& query) {
+  FieldBounds bounds = field.bounds(query);
+  const FieldBounds told = field.upper_bound(query);
+  if (told.upper < bounds.upper) {
+    bounds.upper = told.upper;
+    bounds.point = told.point;
+  }
+  return bounds;
+}
+
 // Narrows the interval of an answer that is not exact by the coarse field. A forged field may
 // contradict the tree; then it is not used.
 void narrow(const Point& query, const NearestLimits& limits, NearestAnswer& answer) {
   if (!limits.field || limits.field->is_empty()) return;
-  const FieldBounds bounds = limits.field->bounds(query);
+  const FieldBounds bounds = bounds_of(*limits.field, query);
   const double lower = std::max(answer.lower, down(bounds.lower));
   // Within an error, the triangle found is near enough: its distance stays in the interval.
-  const bool keeps_upper = answer.status == Status::kWithinError && answer.triangle != kNoTriangle;
+  const bool keeps_upper = answer.status == Status::kWithinError &&
+                           answer.triangle != kNoTriangle && is_within_error(answer, limits);
   const double upper = keeps_upper ? answer.upper : std::min(answer.upper, up(bounds.upper));
   if (!(lower < upper)) return;
-  if (answer.triangle == kNoTriangle && bounds.upper < answer.upper) {
-    answer.point = bounds.point;
-    answer.distance = upper;
-  }
+  // The search may have left out all triangles as near as the field's point, which is within the
+  // error then.
+  if (answer.status == Status::kWithinError && upper < answer.distance)
+    answer.triangle = kNoTriangle;
+  if (answer.triangle == kNoTriangle && bounds.upper < answer.upper) answer_with(bounds, 0, answer);
   answer.lower = lower;
   answer.upper = upper;
-  if (answer.distance <= upper && is_within_error(answer, limits))
+  // The sample may be farther than the box that gave the upper end.
+  const bool has_point = answer.triangle != kNoTriangle ||
+                         (query - answer.point).norm() * (1 - kNormRounding) <= upper;
+  if (has_point && answer.distance <= upper && is_within_error(answer, limits))
     answer.status = Status::kWithinError;
 }
 

@@ -244,11 +244,12 @@ class ClosestPointQuery {
     if (!faces.complete || !oriented.winding_is_known || limit.exceeded()) mark_degraded();
   }
 
-  // Sets the normal of an answer without a triangle: the direction from its point to the query, out
-  // of the solid.
+  // Sets the normal of an answer without a triangle: the direction from its point to the query, or,
+  // by NormalRule::kOutward, out of the solid.
   void find_direction(const octree::NearestAnswer& nearest) {
     octree::Point direction = point_ - nearest.point;
-    if (answer_.side == Side::kInside) direction = -direction;
+    if (answer_.side == Side::kInside && options_.normal_rule == NormalRule::kOutward)
+      direction = -direction;
     const double length = direction.norm();
     if (!(length > 0)) return;
     direction /= length;

@@ -106,6 +106,57 @@ TEST(CoarseField, HoldsAtGridPointsAndAnUlpBeside) {
   }
 }
 
+// Rounding to quanta moves a point the most if each coordinate is half a quantum off. Seen along
+// the diagonal, it is then nearer or farther by all of sqrt(3) / 2 quanta.
+TEST(CoarseField, BoundsHoldWhereRoundingIsGreatest) {
+  const FieldShape shape = PointCloud({Point::Zero()}).shape();
+  const Point diagonal = Point::Constant(shape.quantum);
+  for (const double number : {9000, 14000, 20011}) {
+    // Stored half a quantum above.
+    const PointCloud cloud({shape.lower + diagonal * (number + 0.5 + 1e-6)});
+    const Point surface = cloud.nearest(Point::Zero());
+    const CoarseField field = cloud.field();
+    double least_lower = kInfinity, least_upper = kInfinity;
+    for (const double steps : {-30000.0, -8000.0, 8000.0, 30000.0}) {
+      // From the grid point that is next on the diagonal, as nothing is interpolated there.
+      const double whole = std::round((number + steps) * shape.quantum / shape.step);
+      const Point query = shape.lower + Point::Constant(whole * shape.step);
+      const double distance = (query - surface).norm();
+      const FieldBounds bounds = field.bounds(query);
+      EXPECT_LE(bounds.lower, distance);
+      EXPECT_GE(bounds.upper, distance);
+      EXPECT_GE(field.estimate(query).upper, distance);
+      EXPECT_GE(field.upper_bound(query).upper, distance);
+      least_lower = std::min(least_lower, distance - bounds.lower);
+      least_upper = std::min(least_upper, bounds.upper - distance);
+    }
+    // Little is spare: none of these would hold with an uncertainty of sqrt(3) / 2.
+    EXPECT_LT(least_lower, 0.1 * shape.quantum);
+    EXPECT_LT(least_upper, 0.1 * shape.quantum);
+  }
+}
+
+// There the rounding of float is more than the uncertainty.
+TEST(CoarseField, BoundsHoldFarAway) {
+  Noise noise(3);
+  const PointCloud cloud({Point(0.3, 0.2, 0.1)});
+  const CoarseField field = cloud.field();
+  for (const double reach : {0x1p10, 0x1p20, 0x1p30})
+    for (int i = 0; i < 3000; ++i) {
+      const Vec3 p = noise.point(-reach, reach);
+      const Point query(p.x, p.y, p.z);
+      const double distance = (query - cloud.nearest(query)).norm();
+      const FieldBounds bounds = field.bounds(query);
+      EXPECT_LE(bounds.lower, distance);
+      EXPECT_GE(bounds.upper, distance);
+      EXPECT_LE(bounds.upper, distance * (1 + 0x1p-18) + cloud.shape().quantum * 2);
+      const FieldBounds one = field.upper_bound(query);
+      EXPECT_GE(one.upper, distance);
+      EXPECT_LE(one.upper, distance * (1 + 0x1p-38) + cloud.shape().quantum * 2);
+      EXPECT_EQ(one.upper, field.estimate(query).upper);
+    }
+}
+
 // A stray may be anywhere outside, so that nothing is known there but an upper bound.
 TEST(CoarseField, HasNoLowerBoundOutsideBesideStrays) {
   const PointCloud cloud = random_cloud(50);
@@ -118,6 +169,7 @@ TEST(CoarseField, HasNoLowerBoundOutsideBesideStrays) {
 TEST(CoarseField, TellsNothingWithoutPointsAndVeryFarAway) {
   EXPECT_FALSE(CoarseField().bounds(Point(0, 0, 0)).are_known());
   EXPECT_EQ(CoarseField().estimate(Point(0, 0, 0)).upper, kInfinity);
+  EXPECT_FALSE(CoarseField().upper_bound(Point(0, 0, 0)).are_known());
   const PointCloud cloud = random_cloud(50);
   for (const double far : {1e20, 1e150, 1e300}) {
     EXPECT_FALSE(cloud.field().bounds(Point(0, far, 0)).are_known());
