@@ -31,6 +31,17 @@ TEST(TriangleDistance, FindsTheFaceBelow) {
   EXPECT_EQ(nearest.barycentric, (std::array<double, 3>{0.5, 0.25, 0.25}));
 }
 
+// The error of a value is at least 32 u of the farthest corner's distance, over the sine at the
+// corner of the largest angle.
+TEST(TriangleDistance, ErrorsCoverTheRoundingOfTheFarthestCorner) {
+  for (const double far : {0.5, 3.0, 1000.0}) {
+    const double farthest = std::sqrt(0.75 * 0.75 + 0.25 * 0.25 + far * far);
+    const double error = nearest_on_triangle({0.25, 0.25, -far}, kRight).value.error;
+    EXPECT_GE(error, 32 * 0x1p-53 * farthest);
+    EXPECT_LE(error, 128 * 0x1p-53 * farthest);
+  }
+}
+
 TEST(TriangleDistance, FindsEachEdge) {
   struct Row {
     Point query, point;
