@@ -70,7 +70,7 @@ void BuiltModel::build(const std::filesystem::path& mesh, const BuildChoices& ch
   options.side = choices.side;
   const auto report = octree::build_tree(mesh, path(), options, silent, seams);
   if (!report) give_up(report.error());
-  scale_exponent_ = report->header.model.scale_exponent;
+  record_ = report->header.model;
   OpenOptions open;
   open.memory_budget_bytes = choices.budget_bytes;
   open.max_probes = choices.max_probes;

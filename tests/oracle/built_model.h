@@ -11,6 +11,7 @@
 #include "octree/builder/job/build_options.h"
 #include "planetree/model.h"
 #include "planetree/probe.h"
+#include "storage/file/file_layout.h"
 #include "tests/oracle/brute_force.h"
 #include "tests/storage/system/temporary_directory.h"
 
@@ -43,7 +44,8 @@ class BuiltModel {
   [[nodiscard]] const Model& model() const { return *model_; }
   [[nodiscard]] std::filesystem::path path() const { return folder_ / "model.ptree"; }
   /// model frame = input * 2^scale_exponent()
-  [[nodiscard]] int scale_exponent() const { return scale_exponent_; }
+  [[nodiscard]] int scale_exponent() const { return record_.scale_exponent; }
+  [[nodiscard]] const storage::ModelRecord& record() const { return record_; }
 
   ClosestPoint closest_point(const Vec3& query, const QueryOptions& options = {}) {
     return probe_->closest_point(query, options);
@@ -55,7 +57,7 @@ class BuiltModel {
 
   storage::TemporaryDirectory folder_;
   Soup triangles_;
-  int scale_exponent_ = 0;
+  storage::ModelRecord record_{};
   std::optional<Model> model_;
   std::optional<Probe> probe_;
 };
