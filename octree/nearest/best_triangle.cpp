@@ -89,6 +89,13 @@ FieldBounds bounds_of(const CoarseField& field, const Point& query) {
   return bounds;
 }
 
+// Whether the point of an answer is known to be within `upper`. The sample may be farther than the
+// box that gave the upper end.
+bool has_point(const Point& query, const NearestAnswer& answer, double upper) {
+  return answer.triangle != kNoTriangle ||
+         (query - answer.point).norm() * (1 - kNormRounding) <= upper;
+}
+
 // Narrows the interval of an answer that is not exact by the coarse field. A forged field may
 // contradict the tree; then it is not used.
 void narrow(const Point& query, const NearestLimits& limits, NearestAnswer& answer) {
@@ -98,19 +105,22 @@ void narrow(const Point& query, const NearestLimits& limits, NearestAnswer& answ
   // Within an error, the triangle found is near enough: its distance stays in the interval.
   const bool keeps_upper = answer.status == Status::kWithinError &&
                            answer.triangle != kNoTriangle && is_within_error(answer, limits);
-  const double upper = keeps_upper ? answer.upper : std::min(answer.upper, up(bounds.upper));
+  double upper = keeps_upper ? answer.upper : std::min(answer.upper, up(bounds.upper));
   if (!(lower < upper)) return;
   // The search may have left out all triangles as near as the field's point, which is within the
   // error then.
   if (answer.status == Status::kWithinError && upper < answer.distance)
     answer.triangle = kNoTriangle;
-  if (answer.triangle == kNoTriangle && bounds.upper < answer.upper) answer_with(bounds, 0, answer);
+  const bool lacks_point =
+      answer.status == Status::kWithinError && !has_point(query, answer, answer.upper);
+  if (answer.triangle == kNoTriangle && (bounds.upper < answer.upper || lacks_point)) {
+    answer_with(bounds, 0, answer);
+    upper = answer.upper;
+  }
   answer.lower = lower;
   answer.upper = upper;
-  // The sample may be farther than the box that gave the upper end.
-  const bool has_point = answer.triangle != kNoTriangle ||
-                         (query - answer.point).norm() * (1 - kNormRounding) <= upper;
-  if (has_point && answer.distance <= upper && is_within_error(answer, limits))
+  if (has_point(query, answer, upper) && answer.distance <= upper &&
+      is_within_error(answer, limits))
     answer.status = Status::kWithinError;
 }
 

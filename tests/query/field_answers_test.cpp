@@ -148,11 +148,13 @@ TEST_F(FieldAnswers, WithinAnErrorHaveAPointInTheInterval) {
   Probe probe = make_probe(model);
   std::size_t without_triangle = 0;
   for (const Vec3& direction : random_queries(400, -1, 1))
-    for (const std::uint32_t work : {3U, 5U, 7U, 9U}) {
-      const double size = length(direction);
+    for (const std::uint32_t work : {3U, 5U, 7U, 9U, 40U}) {
+      const bool is_far = work > 9;
+      const double size = length(direction) / (is_far ? 9000 : 1);
       const Vec3 query{direction.x / size, direction.y / size, direction.z / size};
+      const double error = is_far ? 0.04 : 4;
       const ClosestPoint answer =
-          probe.closest_point(query, {.parts = kDistance, .max_error = 4, .max_work = work});
+          probe.closest_point(query, {.parts = kDistance, .max_error = error, .max_work = work});
       if (answer.status != Status::kWithinError || answer.triangle != kNoTriangle) continue;
       ++without_triangle;
       EXPECT_LE(length(answer.point - query), answer.upper * (1 + 1e-9));
