@@ -9,6 +9,7 @@ set(planetree_headers
   eigen.h
   error.h
   export.h
+  layers.h
   model.h
   planetree.h
   probe.h

@@ -17,6 +17,7 @@
 
 #include "planetree/error.h"
 #include "planetree/export.h"
+#include "planetree/layers.h"
 #include "planetree/types.h"
 
 /// @file
@@ -141,8 +142,8 @@ enum class SideChoice : std::uint8_t {
   kSurface  ///< SideRule::kSurface
 };
 
-/// Options of build(). Of these, only `page_bytes`, `box`, `side` and `float64` change the bytes of
-/// the file.
+/// Options of build(). Of these, only `page_bytes`, `box`, `side`, `layers` and `float64` change
+/// the bytes of the file.
 struct BuildOptions {
   /// Maximum memory of the build in bytes, at least kMinMemoryBytes. It limits the resident memory
   /// of the whole process if the rest of the program takes less than 64 MiB. Arrays of a BuildInput
@@ -166,6 +167,11 @@ struct BuildOptions {
   std::optional<Box> box;
   /// How queries decide sides by default; see SideRule.
   SideChoice side = SideChoice::kAuto;
+  /// Layers of the file: kSideLayer and kFieldLayer, combined with `|`. The distance layer is
+  /// always built. What is left out is not built, takes no room in the file, and cannot be opened;
+  /// see OpenOptions::layers. Without kSideLayer the build makes neither mask nor caps. It matches
+  /// edges in any case, so that the file states whether the surface is watertight.
+  std::uint32_t layers = kAllLayers;
   /// Keeps a checkpoint: completed work in a directory that is removed when the file is complete. A
   /// later build of the same input and options resumes it. The directory is `OUTPUT.work` beside
   /// the output. If `temp_directory` is set, it is there, and its name also has a hash of the
@@ -230,7 +236,8 @@ struct BuildReport {
   std::uint64_t nodes = 0;                ///< inner nodes of the tree
   std::uint64_t blocks = 0;               ///< leaves of the tree: blocks of up to 16 triangles
   std::uint32_t levels = 0;               ///< height of the tree, in nodes
-  std::uint32_t pages = 0;                ///< distance and mask pages
+  std::uint32_t layers = kAllLayers;      ///< layers of the file; no field if it is too coarse
+  std::uint32_t pages = 0;                ///< pages of all layers
   std::uint64_t file_bytes = 0;           ///< length of the file
   std::uint64_t temporary_bytes = 0;      ///< bytes that were spilled to temporary files
   std::uint64_t peak_resident_bytes = 0;  ///< peak resident memory since the process started
@@ -244,8 +251,8 @@ struct BuildReport {
 /// Builds the .ptree file of a mesh. The file appears under its name when it is complete. After an
 /// error or a cancelled build an earlier file of that name is unchanged, and no new file is left,
 /// except for the checkpoint of BuildOptions::resume. The bytes of the file depend on the input,
-/// `page_bytes`, `box`, `side`, `float64`, and the releases of planetree and LZ4, and on nothing
-/// else.
+/// `page_bytes`, `box`, `side`, `layers`, `float64`, and the releases of planetree and LZ4, and on
+/// nothing else.
 ///
 /// input    triangles in any order. Records that cannot be used are skipped and counted.
 /// output   the file. Its directory must exist.

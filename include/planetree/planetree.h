@@ -10,6 +10,7 @@
 #include "planetree/build.h"
 #include "planetree/error.h"
 #include "planetree/export.h"
+#include "planetree/layers.h"
 #include "planetree/model.h"
 #include "planetree/probe.h"
 #include "planetree/stats.h"

@@ -130,6 +130,7 @@ octree::BuildOptions inner_options(const BuildOptions& options) {
   if (options.side != SideChoice::kAuto)
     inner.side = options.side == SideChoice::kSurface ? storage::SideRule::kSurface
                                                       : storage::SideRule::kSolid;
+  inner.layers = options.layers;
   inner.replace = options.replace;
   if (options.box) inner.box = {options.box->lower, options.box->upper};
   inner.resume = options.resume;
@@ -166,6 +167,8 @@ BuildReport report_of(const octree::BuildReport& built) {
   report.nodes = model.node_count;
   report.blocks = model.block_count;
   report.levels = model.height;
+  report.layers = kDistanceLayer | (model.has_side_layer() ? kSideLayer : 0) |
+                  (model.field_page_count > 0 ? kFieldLayer : 0);
   report.pages = header.page_count;
   report.file_bytes = header.file_bytes;
   report.temporary_bytes = built.temporary_bytes;

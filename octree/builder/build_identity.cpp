@@ -16,7 +16,7 @@ namespace planetree::octree {
 namespace {
 
 /// To be raised with every change of the records or of what trees consist of.
-constexpr int kWorkVersion = 7;
+constexpr int kWorkVersion = 8;
 
 constexpr std::uint64_t kSampleBlocks = 64;
 constexpr std::uint64_t kBlockBytes = 4096;
@@ -109,6 +109,7 @@ Result<BuildIdentity> BuildIdentity::of(const BuildInput& input, const BuildOpti
   BuildIdentity& identity = *found;
   identity.version = version_text();
   identity.page_bytes = options.page_bytes;
+  identity.with_sides = options.has_side_layer();
   identity.strict = options.strict;
   identity.float64 = options.float64;
   identity.chunk_triangles = seams.chunk_triangles;

@@ -28,6 +28,7 @@ struct BuildIdentity {
   std::uint64_t sample_low = 0, sample_high = 0;  ///< hash of blocks all over the file
 
   std::uint32_t page_bytes = 0;
+  bool with_sides = true;
   bool strict = false;
   bool float64 = false;
   std::uint64_t chunk_triangles = 0;
@@ -50,8 +51,8 @@ requires std::same_as<std::remove_const_t<Value>, BuildIdentity>
 void fields(Record& record, Value& identity) {
   record(identity.version, identity.input_bytes, identity.input_number, identity.changed_seconds,
          identity.changed_nanoseconds, identity.sample_low, identity.sample_high,
-         identity.page_bytes, identity.strict, identity.float64, identity.chunk_triangles,
-         identity.sector_triangles, identity.box);
+         identity.page_bytes, identity.with_sides, identity.strict, identity.float64,
+         identity.chunk_triangles, identity.sector_triangles, identity.box);
 }
 
 }  // namespace planetree::octree

@@ -26,8 +26,8 @@ struct CapWork {
 };
 
 /// Makes the caps of a surface and the tree of them, whose nodes have moments. The caps of a
-/// watertight surface are none, and there is no tree.
-/// threads  one at a time.
+/// watertight surface are none, and there is no tree. Nor is there one without close() and
+/// resume(). threads  one at a time.
 class CapTree {
  public:
   /// frame, shape  those of the surface; must outlive this.

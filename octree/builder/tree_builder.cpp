@@ -16,12 +16,11 @@
 #include "octree/builder/job/phase_count.h"
 #include "octree/builder/mesh/mesh_format.h"
 #include "octree/builder/mesh/mesh_size.h"
-#include "octree/builder/shared_area_sums.h"
 #include "octree/builder/sort/each_chunk.h"
 #include "octree/builder/sort/ordered_mesh.h"
 #include "octree/builder/sort/triangle_runs.h"
 #include "octree/builder/space_need.h"
-#include "octree/builder/surface/edge_matching.h"
+#include "octree/builder/surface_pass.h"
 #include "octree/builder/tree/built_tree.h"
 #include "octree/builder/tree_file.h"
 #include "octree/geometry/strict_math.h"
@@ -80,6 +79,7 @@ class TreeBuild {
   Result<void> look_at_surface();
   Result<void> match_edges();
   Result<void> cut_out_part();
+  Result<void> divide_sectors();
   Result<void> build_chunks();
   void resume_chunks();
   Result<void> build(std::size_t number, Triangles& triangles);
@@ -210,24 +210,17 @@ Result<void> TreeBuild::look_at_surface() {
 }
 
 Result<void> TreeBuild::match_edges() {
-  RegionCut cut(model_.frame, region(), part_ ? &*part_ : nullptr);
-  SharedAreaSums areas(model_.frame.core_lower(), model_.frame.core_upper());
-  CapChain boundary(memory_.cap_bytes, files_.scratch());
-  auto edges =
-      octree::match_edges(*whole_, model_.above.chunks, memory_.edge_bytes, files_.scratch(),
-                          progress_, boundary, [&](const Triangles& chunk) {
-                            areas.add(chunk);
-                            return cut.add(chunk);
-                          });
-  if (!edges) return edges.error();
-  model_.edges = *std::move(edges);
-  if (const auto closed = caps_->close(boundary, cut); !closed) return closed;
-  model_.cut = cut.found();
-  model_.openness = areas.openness();
+  const SurfacePass pass{model_.frame, *whole_, model_.above.chunks, part_ ? &*part_ : nullptr,
+                         options_.has_side_layer() ? &*caps_ : nullptr};
+  auto found = pass.run(region(), memory_, files_.scratch(), progress_);
+  if (!found) return found.error();
+  model_.edges = found->edges;
+  model_.cut = found->cut;
+  model_.openness = found->openness;
   if (!files_.work()) return {};
-  return keep(SurfaceWork{model_.edges, model_.cut, model_.openness,
-                          part_ ? part_->extents() : std::vector<TriangleRuns::Extent>(),
-                          caps_->work()});
+  if (part_) found->kept = part_->extents();
+  found->caps = caps_->work();
+  return keep(*found);
 }
 
 // The rest of the input is not needed from here on.
@@ -248,14 +241,20 @@ Result<void> TreeBuild::cut_out_part() {
       SpaceNeed::after_cutting(part, memory_, kept_bytes - std::min(kept_bytes, of_triangles)));
 }
 
-Result<void> TreeBuild::build_chunks() {
+// Without sides there are no sectors, and no caps in them.
+Result<void> TreeBuild::divide_sectors() {
+  if (!options_.has_side_layer()) return {};
   sectors_.emplace(model_.frame.core_lower(), region(), model_.cut.winding, model_.frame.float64,
                    memory_.visitor_bytes, files_.triangles());
   if (const auto divided = sectors_->divide(runs(), caps_->runs(), model_.frame.has_strays(),
                                             seams_.sector_triangles);
       !divided)
     return divided;
-  if (const auto built = caps_->build(*sectors_, seams_.chunk_triangles); !built) return built;
+  return caps_->build(*sectors_, seams_.chunk_triangles);
+}
+
+Result<void> TreeBuild::build_chunks() {
+  if (const auto divided = divide_sectors(); !divided) return divided;
   model_.chunks.resize(model_.above.chunks.size());
   resume_chunks();
   return for_each_chunk(
@@ -268,7 +267,7 @@ void TreeBuild::resume_chunks() {
   if (!files_.work()) return;
   for (std::uint32_t i = 0; i < model_.chunks.size(); ++i) {
     auto chunk = files_.work()->take_chunk(i);
-    if (!chunk || !sectors_->add_extent(chunk->part)) continue;
+    if (!chunk || (sectors_ && !sectors_->add_extent(chunk->part))) continue;
     model_.chunks[i] = std::move(chunk->built);
   }
 }
@@ -276,10 +275,11 @@ void TreeBuild::resume_chunks() {
 Result<void> TreeBuild::build(std::size_t number, Triangles& triangles) {
   triangles.sort();
   ChunkWork chunk;
-  if (auto part = sectors_->add(triangles); part)
+  if (sectors_) {
+    auto part = sectors_->add(triangles);
+    if (!part) return part.error();
     chunk.part = *std::move(part);
-  else
-    return part.error();
+  }
   auto built = build_chunk(triangles, model_.frame.centre(), model_.shape, options_.page_bytes,
                            files_.pages());
   if (!built) return built.error();
@@ -297,7 +297,7 @@ Result<void> TreeBuild::number_pages() {
 }
 
 Result<void> TreeBuild::colour_cells() {
-  if (sectors_->touched_count() == 0) return {};
+  if (!sectors_ || sectors_->touched_count() == 0) return {};
   model_.mask.emplace(options_.page_bytes, model_.frame.float64, files_.pages());
   auto earlier =
       files_.work() ? files_.work()->take_sectors() : std::map<std::uint32_t, BuiltSector>();
@@ -314,10 +314,12 @@ Result<void> TreeBuild::colour_cells() {
 }
 
 Result<BuildReport> TreeBuild::write_pages() {
-  auto field = BuiltField::build(BuiltTrees(&*tree_, caps_->tree()), region(),
-                                 model_.cut.triangle_count, options_.page_bytes, progress_);
-  if (!field) return field.error();
-  model_.field = *std::move(field);
+  if (options_.has_field_layer()) {
+    auto field = BuiltField::build(BuiltTrees(&*tree_, caps_->tree()), region(),
+                                   model_.cut.triangle_count, options_.page_bytes, progress_);
+    if (!field) return field.error();
+    model_.field = *std::move(field);
+  }
   writing_ = true;
   const auto header =
       write_tree(model_, *tree_, *caps_, output_, options_, seams_.calls, progress_);

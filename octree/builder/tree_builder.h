@@ -23,7 +23,7 @@ struct BuildReport {
 };
 
 /// Reads a mesh and writes its tree to `output`, completely or not at all. The bytes
-/// written depend on the mesh, box, page_bytes and float64 alone.
+/// written depend on the mesh, box, page_bytes, layers and float64 alone.
 ///
 /// box     with options.box the file holds the triangles that touch the box, and possibly some that
 ///         just miss it. Frame, edges and winding numbers are those of the whole input.

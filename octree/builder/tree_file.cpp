@@ -36,7 +36,8 @@ void describe_mesh(const BuiltModel& built, storage::ModelRecord& model) {
   built.edges.describe(frame.scale_exponent, model);
 }
 
-void describe_region(const BuiltModel& built, storage::ModelRecord& model) {
+void describe_region(const BuiltModel& built, const BuildOptions& options,
+                     storage::ModelRecord& model) {
   if (!built.box) return;
   model.input_triangles = built.frame.triangle_count;
   const auto& [lower, upper] = *built.box;
@@ -46,7 +47,7 @@ void describe_region(const BuiltModel& built, storage::ModelRecord& model) {
     model.region_lower[axis] = from[axis] + 0.0;
     model.region_upper[axis] = to[axis] + 0.0;
   }
-  model.region_winding = built.cut.winding;
+  model.region_winding = options.has_side_layer() ? built.cut.winding : 0;
 }
 
 // A surface without a border is not a sheet, whatever the rounding of its openness.
@@ -56,6 +57,7 @@ void describe_side_rule(const BuiltModel& built, const BuildOptions& options,
       built.edges.unbalanced_edges > 0 && built.openness >= AreaSums::kOpennessOfSheet;
   model.openness = built.edges.unbalanced_edges > 0 ? built.openness : 0;
   model.side_is_chosen = options.side ? 1 : 0;
+  model.without_sides = options.has_side_layer() ? 0 : 1;
   model.side_rule =
       options.side.value_or(is_sheet ? storage::SideRule::kSurface : storage::SideRule::kSolid);
 }
@@ -115,7 +117,7 @@ Result<storage::FileHeader> write_tree(const BuiltModel& built, const BuiltTree&
   if (!masked) return masked.error();
   storage::ModelRecord model{};
   describe_mesh(built, model);
-  describe_region(built, model);
+  describe_region(built, options, model);
   describe_side_rule(built, options, model);
   describe_tree(built, tree, model);
   caps.describe(model);

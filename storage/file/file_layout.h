@@ -89,7 +89,7 @@ struct ModelRecord {
   /// Model frame: no less than any edge of a stray that has an edge longer than its gap to the
   /// core; 0 if there is none. Distances to such strays are less certain.
   double stray_edge;
-  std::uint64_t cap_count;        ///< caps that close the surface; 0: it is watertight
+  std::uint64_t cap_count;        ///< caps that close the surface; 0: watertight, or no side layer
   std::uint64_t cap_node_count;   ///< nodes of the tree of caps
   std::uint64_t cap_block_count;  ///< blocks of the tree of caps
   double cap_area;                ///< sum of the caps' areas; model frame
@@ -102,7 +102,8 @@ struct ModelRecord {
   double openness;
   SideRule side_rule;           ///< how queries decide sides by default
   std::uint8_t side_is_chosen;  ///< 1: the builder was told side_rule; 0: it follows from openness
-  std::uint8_t side_reserved[6];   ///< zero
+  std::uint8_t without_sides;   ///< 1: the file has no side layer, that is no caps and no mask
+  std::uint8_t side_reserved[5];   ///< zero
   double field_lower[3];           ///< coarse field: first grid point; model frame
   double field_step;               ///< distance from grid point to grid point; model frame
   double field_quantum;            ///< unit of stored surface points; model frame
@@ -110,6 +111,7 @@ struct ModelRecord {
   std::uint32_t field_page_count;  ///< field pages, between cap pages and mask pages
 
   [[nodiscard]] bool has_region() const noexcept { return input_triangles > 0; }
+  [[nodiscard]] bool has_side_layer() const noexcept { return without_sides == 0; }
   /// Number of usable triangles of the whole input.
   [[nodiscard]] std::uint64_t usable_triangles() const noexcept {
     return has_region() ? input_triangles : triangle_count;

@@ -87,6 +87,10 @@ Result<void> check_region(const ModelRecord& model) noexcept {
   if (model.has_region() ? !is_region(model) : !is_no_region(model)) {
     return bad_model(offsetof(ModelRecord, region_lower), "the region is not one of the model");
   }
+  if (!model.has_side_layer() && model.region_winding != 0) {
+    return bad_model(offsetof(ModelRecord, region_winding),
+                     "a file without sides has a winding number");
+  }
   if (model.has_region() && model.input_triangles < model.triangle_count) {
     return bad_model(offsetof(ModelRecord, input_triangles),
                      "a region has more triangles than the input");
@@ -117,6 +121,10 @@ Result<void> check_side_rule(const ModelRecord& model) noexcept {
       model.side_rule != SideRule::kSolid) {
     return bad_model(offsetof(ModelRecord, side_rule), "a watertight surface is taken for a sheet");
   }
+  if (model.without_sides > 1) {
+    return bad_model(offsetof(ModelRecord, without_sides),
+                     "the mark of a file without sides is neither 0 nor 1");
+  }
   if (!all_zero(model.side_reserved)) {
     return bad_model(offsetof(ModelRecord, side_reserved),
                      "the reserved bytes of the rule for sides are not zero");
@@ -125,6 +133,9 @@ Result<void> check_side_rule(const ModelRecord& model) noexcept {
 }
 
 Result<void> check_mask(const ModelRecord& model) noexcept {
+  if (!model.has_side_layer() && model.mask_page_count > 0) {
+    return bad_model(offsetof(ModelRecord, mask_page_count), "a file without sides has a mask");
+  }
   if ((model.mask_page_count > 0) != (model.mask_cell_count > 0) ||
       (model.mask_page_count == 0 && model.mask_levels > 0) || model.mask_levels > kMaxMaskLevel) {
     return bad_model(offsetof(ModelRecord, mask_cell_count), "the mask's size is out of range");
@@ -136,10 +147,12 @@ Result<void> check_mask(const ModelRecord& model) noexcept {
   return {};
 }
 
-// An edge that is not balanced has at least one cap. A tree of caps has at least one block.
+// An edge that is not balanced has at least one cap, unless the file has no side layer. A tree of
+// caps has at least one block.
 Result<void> check_caps(const ModelRecord& model) noexcept {
   const bool has_caps = model.cap_count > 0;
-  if (has_caps != (model.unbalanced_edge_count > 0) || has_caps != (model.cap_page_count > 0) ||
+  const bool needs_caps = model.unbalanced_edge_count > 0 && model.has_side_layer();
+  if (has_caps != needs_caps || has_caps != (model.cap_page_count > 0) ||
       has_caps != (model.cap_block_count > 0) || (!has_caps && model.cap_node_count > 0)) {
     return bad_model(offsetof(ModelRecord, cap_count),
                      "the caps are not those of the unbalanced edges");

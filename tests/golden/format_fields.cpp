@@ -111,6 +111,7 @@ FormatStruct model_fields() {
       .PLANETREE_FIELD(ModelRecord, openness)
       .PLANETREE_FIELD(ModelRecord, side_rule)
       .PLANETREE_FIELD(ModelRecord, side_is_chosen)
+      .PLANETREE_FIELD(ModelRecord, without_sides)
       .PLANETREE_FIELD(ModelRecord, side_reserved)
       .PLANETREE_FIELD(ModelRecord, field_lower)
       .PLANETREE_FIELD(ModelRecord, field_step)

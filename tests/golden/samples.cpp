@@ -84,12 +84,14 @@ std::vector<std::byte> read_file(const std::filesystem::path& path) {
 }
 
 std::vector<std::byte> build_bytes(const std::filesystem::path& mesh, std::uint32_t page_bytes,
-                                   unsigned threads, const std::optional<octree::RegionBox>& box) {
+                                   unsigned threads, const std::optional<octree::RegionBox>& box,
+                                   std::uint32_t layers) {
   const storage::TemporaryDirectory folder;
   octree::BuildOptions options;
   options.page_bytes = page_bytes;
   options.threads = threads;
   options.box = box;
+  options.layers = layers;
   Silence silence;
   const auto report = octree::build_tree(mesh, folder / "built.ptree", options, silence);
   if (!report) throw std::runtime_error(report.error().text);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "octree/builder/job/region_box.h"
+#include "planetree/layers.h"
 #include "planetree/types.h"
 
 /// The files in format-spec/v1/samples: each a mesh and the .ptree file built from it.
@@ -45,7 +46,8 @@ std::vector<std::byte> read_file(const std::filesystem::path& path);
 /// The bytes of the .ptree file built from `mesh`. Throws if the build fails.
 std::vector<std::byte> build_bytes(const std::filesystem::path& mesh, std::uint32_t page_bytes,
                                    unsigned threads,
-                                   const std::optional<octree::RegionBox>& box = std::nullopt);
+                                   const std::optional<octree::RegionBox>& box = std::nullopt,
+                                   std::uint32_t layers = kAllLayers);
 
 /// The bytes of the file built from a sample's mesh without its first `count` triangles, and so
 /// with a hole.

@@ -64,7 +64,8 @@ class PageReader {
       compact_.push_back((count >> 6 & 1) != 0);
       count &= 0x3f;
     }
-    require((!of_caps_ && !header_.has_walls()) || std::ranges::count(is_height_field_, true) == 0,
+    require((!of_caps_ && !header_.has_walls() && !header_.without_sides) ||
+                std::ranges::count(is_height_field_, true) == 0,
             "a height field of caps or of a region with walls");
     vertex_counts_ = layout_.byte_split<std::uint8_t>(head_.blocks);
     new_counts_ = layout_.byte_split<std::uint8_t>(head_.blocks);

@@ -37,6 +37,7 @@ bool is_whole(Bytes header) {
 void read_region(Bytes model, SpecHeader& read) {
   read.input_triangles = get<std::uint64_t>(model, 384);
   read.region_winding = get<std::int64_t>(model, 440);
+  require(!read.without_sides || read.region_winding == 0, "winding of a file without sides");
   read.wall_lower.fill(-INFINITY);
   read.wall_upper.fill(INFINITY);
   if (read.input_triangles == 0) return;
@@ -58,8 +59,12 @@ void read_caps(Bytes model, SpecHeader& read) {
   read.cap_pages = get<std::uint32_t>(model, 544);
   read.cap_root_link = get<std::uint32_t>(model, 548);
   read.cap_height = get<std::uint8_t>(model, 552);
-  for (const bool has_some :
-       {read.cap_pages > 0, read.cap_block_count > 0, read.unbalanced_edges > 0})
+  const auto without_sides = get<std::uint8_t>(model, 570);
+  require(without_sides <= 1, "mark of a file without sides");
+  read.without_sides = without_sides == 1;
+  require(!read.without_sides || read.mask_pages == 0, "mask of a file without sides");
+  const bool needs_caps = read.unbalanced_edges > 0 && !read.without_sides;
+  for (const bool has_some : {read.cap_pages > 0, read.cap_block_count > 0, needs_caps})
     require(has_some == (read.cap_count > 0), "caps");
   require((read.cap_node_count > 0) == (read.cap_count > 16), "nodes of caps");
   for (std::size_t at = 553; at < 560; ++at)

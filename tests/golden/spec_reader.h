@@ -25,6 +25,7 @@ struct SpecHeader {
   double stray_edge;
   double openness;
   bool by_surface, side_is_chosen;  ///< side_rule is 1; the writer's user chose it
+  bool without_sides;               ///< there is no side layer
   std::uint64_t sample_triangle;
   std::int32_t scale_exponent;
   std::uint32_t root_link;

@@ -1,6 +1,7 @@
 // The independent reader finds in the samples the meshes they were built from.
 
 #include "tests/golden/spec_reader.h"
+#include "planetree/layers.h"
 
 #include <gtest/gtest.h>
 
@@ -145,6 +146,43 @@ TEST(SpecReaderFile, DetectsEveryDamagedByteOutsideTheHeaders) {
     std::vector<std::byte> bytes = whole;
     bytes[at] ^= std::byte{0x10};
     EXPECT_THROW(read_all(bytes), std::runtime_error) << at;
+  }
+}
+
+// "Layout": files without some layers.
+SpecFile file_with(const Sample& sample, std::uint32_t layers) {
+  return SpecFile(build_bytes(sample.mesh_path(), 4096, 1, {}, layers));
+}
+
+TEST(SpecLayers, ThatAreLeftOutHaveNoPages) {
+  for (const Sample& sample : samples()) {
+    const SpecFile whole(read_file(sample.ptree_path()));
+    const SpecFile file = file_with(sample, kDistanceLayer);
+    EXPECT_FALSE(whole.header().without_sides);
+    EXPECT_TRUE(file.header().without_sides);
+    EXPECT_EQ(file.header().page_count, whole.header().c());
+    EXPECT_EQ(file.header().c(), file.header().page_count);
+    EXPECT_EQ(file.header().cap_count, 0u);
+    EXPECT_EQ(file.header().mask_cells, 0u);
+    EXPECT_EQ(file.header().field_pages, 0u);
+    EXPECT_EQ(file.header().unbalanced_edges, whole.header().unbalanced_edges);
+    EXPECT_EQ(file.header().openness, whole.header().openness);
+    EXPECT_EQ(file.header().by_surface, whole.header().by_surface);
+    EXPECT_FALSE(file_with(sample, kSideLayer).header().without_sides);
+  }
+}
+
+TEST(SpecLayers, DoNotChangeTheTree) {
+  for (const Sample& sample : samples()) {
+    const SpecTree whole(SpecFile(read_file(sample.ptree_path())));
+    const SpecTree tree(file_with(sample, kDistanceLayer));
+    const auto expected = whole.triangles(whole.header().root_link);
+    const auto found = tree.triangles(tree.header().root_link);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_EQ(found[i].id, expected[i].id);
+      EXPECT_EQ(found[i].corners, expected[i].corners);
+    }
   }
 }
 

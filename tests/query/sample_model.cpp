@@ -65,7 +65,7 @@ void close(const octree::SampleTree& sample, std::uint32_t first_page, octree::C
   octree::CapChain boundary(kHeldBytes, octree::spill_file());
   octree::EdgeCensus census(kHeldBytes, octree::spill_file());
   need(census.add(sample.mesh));
-  if (!census.balance(boundary)) std::abort();
+  if (!census.balance(&boundary)) std::abort();
   octree::RegionCut cut(sample.mesh.frame, {}, nullptr);
   need(caps.close(boundary, cut));
   octree::MaskSectors sectors(sample.mesh.frame.core_lower(), {}, 0, sample.shape.float64,

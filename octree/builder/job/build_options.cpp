@@ -15,6 +15,9 @@ Result<void> BuildOptions::check() const {
       page_bytes > storage::kMaxPageBytes)
     return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
                       "a page of %u bytes; use a power of two from 4K to 256K", page_bytes);
+  if ((layers & ~kAllLayers) != 0)
+    return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
+                      "layers are 0x%x; combine kSideLayer and kFieldLayer", layers);
   return box ? box->check() : Result<void>();
 }
 

@@ -6,6 +6,7 @@
 
 #include "octree/builder/job/region_box.h"
 #include "planetree/error.h"
+#include "planetree/layers.h"
 #include "storage/file/file_layout.h"
 
 namespace planetree::octree {
@@ -22,6 +23,7 @@ struct BuildOptions {
   bool replace = false;                  ///< an existing output may be replaced
   /// How queries decide sides; empty: as the openness of the surface suggests.
   std::optional<storage::SideRule> side;
+  std::uint32_t layers = kAllLayers;  ///< layers of the file; that of distances is always built
   /// Builds only the triangles that touch this box. Points are inside or outside of the whole
   /// input.
   std::optional<RegionBox> box;
@@ -29,7 +31,10 @@ struct BuildOptions {
   /// input and options left.
   bool resume = false;
 
-  /// errors  kBadArgument: page_bytes is none of a page; the box is none, see RegionBox::check()
+  bool has_side_layer() const { return (layers & kSideLayer) != 0; }
+  bool has_field_layer() const { return (layers & kFieldLayer) != 0; }
+  /// errors  kBadArgument: page_bytes is none of a page; an unknown layer; the box is none, see
+  ///         RegionBox::check()
   Result<void> check() const;
   /// Directory of the output.
   static std::filesystem::path output_directory(const std::filesystem::path& output);

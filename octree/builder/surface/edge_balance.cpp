@@ -168,7 +168,7 @@ Result<void> EdgeCensus::add(const Triangles& chunk) {
   return {};
 }
 
-Result<EdgeBalance> EdgeCensus::balance(CapChain& boundary) {
+Result<EdgeBalance> EdgeCensus::balance(CapChain* boundary) {
   // The hashes are divided into equal ranges; their number is a power of two.
   const std::uint64_t shares = std::bit_ceil(left_over_.size() / kEdgesAtOnce + 1);
   const auto cut = [&](std::uint64_t share) -> Result<storage::SpillRuns::Cut> {
@@ -188,8 +188,9 @@ Result<EdgeBalance> EdgeCensus::balance(CapChain& boundary) {
     const UnbalancedEnds some = unbalanced_ends(std::move(edges));
     const std::lock_guard lock(mutex);
     unbalanced.join(some);
+    if (!boundary) return {};
     for (const auto& [e, net] : some.all)
-      if (const auto added = boundary.add({e[0], e[1], e[2]}, {e[3], e[4], e[5]}, net); !added)
+      if (const auto added = boundary->add({e[0], e[1], e[2]}, {e[3], e[4], e[5]}, net); !added)
         return added;
     return {};
   });

@@ -61,9 +61,9 @@ class EdgeCensus {
   /// Returns the number of unbalanced edges, and the ends of those listed. Call it after the last
   /// part. Uses the calling thread's TBB arena.
   ///
-  /// boundary  receives every unbalanced edge.
+  /// boundary  receives every unbalanced edge; may be null.
   /// errors    those of SpillFile and CapChain.
-  Result<EdgeBalance> balance(CapChain& boundary);
+  Result<EdgeBalance> balance(CapChain* boundary);
 
  private:
   storage::SpillRuns left_over_;

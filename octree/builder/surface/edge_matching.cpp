@@ -7,7 +7,7 @@ namespace planetree::octree {
 
 Result<EdgeBalance> match_edges(const TriangleRuns& runs, const std::vector<Chunk>& chunks,
                                 std::uint64_t held_bytes, storage::SpillFile& scratch,
-                                BuildProgress& progress, CapChain& boundary,
+                                BuildProgress& progress, CapChain* boundary,
                                 const ChunkCall& also) {
   const auto is_done = [](std::size_t) { return false; };
   EdgeCensus census(held_bytes, scratch);

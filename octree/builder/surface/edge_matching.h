@@ -23,11 +23,11 @@ using ChunkCall = std::function<Result<void>(const Triangles& triangles)>;
 /// also        called for every chunk, once.
 /// held_bytes  maximum of edges in memory that are left over by chunks.
 /// scratch     receives the others.
-/// boundary    receives every unbalanced edge.
+/// boundary    receives every unbalanced edge; may be null.
 /// errors      those of SpillFile, CapChain and `also`.
 /// Uses the calling thread's TBB arena.
 Result<EdgeBalance> match_edges(const TriangleRuns& runs, const std::vector<Chunk>& chunks,
                                 std::uint64_t held_bytes, storage::SpillFile& scratch,
-                                BuildProgress& progress, CapChain& boundary, const ChunkCall& also);
+                                BuildProgress& progress, CapChain* boundary, const ChunkCall& also);
 
 }  // namespace planetree::octree

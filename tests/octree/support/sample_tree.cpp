@@ -151,7 +151,7 @@ EdgeBalance balance_of(const SampleMesh& mesh, std::uint32_t part_triangles) {
     if (!census.add(part)) std::abort();
   });
   CapChain boundary(1000, spill_file());
-  EdgeFaces faces(*census.balance(boundary));
+  EdgeFaces faces(*census.balance(&boundary));
   add_parts([&](const Triangles& part) { faces.look_at(part); });
   return faces.balance();
 }

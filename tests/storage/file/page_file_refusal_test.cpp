@@ -130,8 +130,39 @@ TEST_F(PageFileRefusal, RefusesBadRulesForSides) {
   expect_model_refused([](ModelRecord& m) { m.side_rule = SideRule{2}; }, "rule for sides is unkn");
   expect_model_refused([](ModelRecord& m) { m.side_is_chosen = 2; }, "neither 0 nor 1");
   expect_model_refused([](ModelRecord& m) { m.side_rule = SideRule::kSurface; }, "for a sheet");
-  for (const int at : {0, 5})
+  for (const int at : {0, 4})
     expect_model_refused([&](ModelRecord& m) { m.side_reserved[at] = 1; }, "reserved");
+}
+
+TEST_F(PageFileRefusal, RefusesSidesInAFileWithoutSides) {
+  const UnbalancedEdge edge{{0, 0, 0}, {1, 0, 0}, 0, 1, 0};
+  const auto without_sides = [&](ModelRecord& m) {
+    m.without_sides = 1;
+    m.mask_page_count = 0;
+    m.mask_cell_count = 0;
+    m.mask_levels = 0;
+    m.unbalanced_edge_count = 1;
+    m.unbalanced_edge[0] = edge;
+  };
+  expect_model_accepted(without_sides);
+  const auto expect_side_refused = [&](const ModelChange& change, const char* said) {
+    expect_changed_model_refused(without_sides, change, said);
+  };
+  expect_side_refused([](ModelRecord& m) { m.without_sides = 2; }, "neither 0 nor 1");
+  expect_side_refused([](ModelRecord& m) { m.without_sides = 0; }, "caps are not those");
+  expect_side_refused([](ModelRecord& m) { m.mask_cell_count = m.mask_page_count = 1; }, "a mask");
+  expect_side_refused([](ModelRecord& m) { m.cap_count = m.cap_block_count = 1; },
+                      "caps are not those");
+  expect_side_refused(
+      [](ModelRecord& m) {
+        m.input_triangles = m.triangle_count;
+        for (int axis = 0; axis < 3; ++axis) {
+          m.region_lower[axis] = m.box_lower[axis];
+          m.region_upper[axis] = m.box_upper[axis];
+        }
+        m.region_winding = 1;
+      },
+      "has a winding number");
 }
 
 TEST_F(PageFileRefusal, AcceptsAChosenRuleForSides) {
