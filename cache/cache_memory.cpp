@@ -37,7 +37,7 @@ Result<void> check_limits(const CacheLimits& limits) noexcept {
 }
 
 std::uint32_t minimum_frame_count(const CacheLimits& limits) noexcept {
-  return std::min(limits.page_count, limits.max_readers + 2);
+  return std::min(limits.used_pages(), limits.max_readers + 2);
 }
 
 std::uint64_t bytes_needed(const CacheLimits& limits, std::uint32_t frame_count) noexcept {
@@ -57,7 +57,7 @@ std::uint32_t frames_within_budget(const CacheLimits& limits) noexcept {
   // Several roundings make the bytes a step function of the frame count. Bisecting the range
   // [fits, fits_not) is simpler than inverting it.
   std::uint32_t fits = 0;
-  std::uint32_t fits_not = limits.page_count + 1;
+  std::uint32_t fits_not = limits.used_pages() + 1;
   while (fits_not - fits > 1) {
     const std::uint32_t middle = fits + (fits_not - fits) / 2;
     (bytes_needed(limits, middle) <= limits.budget_bytes ? fits : fits_not) = middle;

@@ -21,6 +21,11 @@ struct CacheLimits {
   std::uint64_t reserved_bytes;  ///< part of the budget that the caller needs for itself
   Policy policy = Policy::kClock;
   std::uint32_t own_readers = 0;  ///< of max_readers: those that threads of the caller claim
+  /// Number of pages that are never fetched, below page_count. No frame is kept for them.
+  std::uint32_t unused_pages = 0;
+
+  /// Maximum number of pages in frames.
+  std::uint32_t used_pages() const noexcept { return page_count - unused_pages; }
 };
 
 inline constexpr std::uint32_t kMaxFrameBytes = std::uint32_t{1} << 28;
@@ -32,7 +37,7 @@ Result<void> check_limits(const CacheLimits& limits) noexcept;
 
 /// Minimum number of frames with which every fetch is certain to end: one for each entry in
 /// limbo (one entry per reader and one for pin()), and one for a pinned root page. At most
-/// page_count, because nothing is evicted where every page has a frame.
+/// used_pages(), because nothing is evicted where every page has a frame.
 std::uint32_t minimum_frame_count(const CacheLimits& limits) noexcept;
 
 /// Memory of a cache with `frame_count` frames plus reserved_bytes. This sum is compared with
@@ -42,7 +47,7 @@ std::uint64_t bytes_needed(const CacheLimits& limits, std::uint32_t frame_count)
 /// Smallest budget that PageCache::create() accepts. Ignores `limits.budget_bytes`.
 std::uint64_t minimum_budget_bytes(const CacheLimits& limits) noexcept;
 
-/// Maximum number of frames that fit in the budget, at most page_count; 0 if none fits.
+/// Maximum number of frames that fit in the budget, at most used_pages(); 0 if none fits.
 std::uint32_t frames_within_budget(const CacheLimits& limits) noexcept;
 
 /// All arrays of a PageCache except its frames. They lie in one PrefaultedMemory, so that

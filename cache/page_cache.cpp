@@ -81,7 +81,7 @@ Result<void> PageCache::pin_resident(std::uint32_t page) noexcept {
   const std::uint32_t frame_count = frames_.frame_count();
   const std::uint32_t entries = limits_.max_readers + 1;
   // page_fetch.cpp explains why max_readers + 1 frames must stay unpinned.
-  if (frame_count < limits_.page_count && frame_count - pinned_count_ <= entries) {
+  if (frame_count < limits_.used_pages() && frame_count - pinned_count_ <= entries) {
     return make_error(ErrorCode::kNoMemory, page, Error::kNowhere,
                       "pinning more than %u of %u frames leaves too few for queries: "
                       "raise the memory budget",

@@ -48,6 +48,7 @@ ModelInfo describe(const storage::PageFile& file) {
   info.nodes = model.node_count;
   info.blocks = model.block_count;
   info.levels = model.height;
+  info.layers = layers_of(model);
   info.pages = header.page_count;
   info.page_bytes = header.page_bytes;
   info.file_bytes = header.file_bytes;
@@ -64,7 +65,7 @@ ModelInfo describe(const storage::PageFile& file) {
   return info;
 }
 
-Result<void> check_counts(const OpenOptions& options) {
+Result<void> check_options(const OpenOptions& options) {
   const auto check = [](unsigned count, const char* what, unsigned most) -> Result<void> {
     if (count >= 1 && count <= most) return {};
     return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
@@ -77,7 +78,9 @@ Result<void> check_counts(const OpenOptions& options) {
         check(std::max(options.page_trace_capacity, 1U), "accesses of a trace",
               OpenOptions::kMaxPageTraceCapacity)})
     if (!checked) return checked;
-  return {};
+  if ((options.layers & ~kAllLayers) == 0) return {};
+  return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
+                    "layers are 0x%x; combine kSideLayer and kFieldLayer", options.layers);
 }
 
 // Returns the number of probes of the model's own threads.
@@ -89,6 +92,7 @@ Pager::Limits limits_of(const storage::FileHeader& header, const OpenOptions& op
                         const ModelSeams& seams) {
   Pager::Limits limits;
   limits.budget_bytes = options.memory_budget_bytes;
+  limits.opened = OpenLayers::of(header.model, options.layers);
   limits.max_probes = options.max_probes;
   limits.probe_bytes = sizeof(BatchBuffers);
   limits.thread_probes = thread_probes(options);
@@ -103,12 +107,14 @@ Pager::Limits limits_of(const storage::FileHeader& header, const OpenOptions& op
   limits.arena.readers = limits.readers();
   limits.arena.model_bytes = sizeof(ServingModel);
   limits.arena.probe_bytes = sizeof(ProbeState);
-  if (header.model.mask_page_count > 0)
+  const bool has_side = limits.opened.has_side();
+  if (has_side && header.model.mask_page_count > 0)
     limits.arena.side_grid_bytes = octree::SideGrid::bytes(header.model.triangle_count);
-  if (header.model.cap_count > 0) limits.arena.side_grid_bytes += octree::CapGrid::kBytes;
-  limits.arena.field_bytes = field_shape(header.model).bytes();
+  if (has_side && header.model.cap_count > 0)
+    limits.arena.side_grid_bytes += octree::CapGrid::kBytes;
+  if (limits.opened.has_field()) limits.arena.field_bytes = field_shape(header.model).bytes();
   limits.arena.page_trace_capacity = options.page_trace_capacity;
-  limits.arena.page_count = header.page_count;
+  limits.arena.page_count = limits.opened.page_count(header);
   return limits;
 }
 
@@ -121,12 +127,14 @@ static_assert(OpenOptions::kMaxProbes + OpenOptions::kMaxFetchThreads +
 ModelState::ModelState(std::unique_ptr<Pager> pager)
     : pager_(std::move(pager)),
       info_(describe(pager_->file())),
-      serving_(::new (pager_->query_arena().parts().model.data()) ServingModel(
-          pager_->file().header(), pager_->cache(), pager_->query_arena().parts())) {}
+      serving_(::new (pager_->query_arena().parts().model.data())
+                   ServingModel(pager_->file().header(), pager_->opened(), pager_->cache(),
+                                pager_->query_arena().parts())) {}
 
 ModelState::~ModelState() = default;
 
 Result<void> ModelState::fill_side_grid() {
+  if (!pager_->opened().has_side()) return {};
   auto reader = claim_reader();
   if (!reader) return reader.error();
   PageAccessor accessor(*reader, Wait::kForPages);
@@ -144,6 +152,7 @@ Result<void> ModelState::fill_side_grid() {
 }
 
 Result<void> ModelState::fill_field() {
+  if (!pager_->opened().has_field()) return {};
   auto field = load_field(pager_->file(), serving_->arena.field);
   if (!field) return field.error();
   field_damaged_ = field->is_damaged;
@@ -186,7 +195,7 @@ Result<std::unique_ptr<ModelState>> ModelState::open(const std::filesystem::path
                                                      const OpenOptions& options,
                                                      const ModelSeams& seams) {
   if (const auto checked = octree::check_arithmetic(); !checked) return checked.error();
-  if (const auto checked = check_counts(options); !checked) return checked.error();
+  if (const auto checked = check_options(options); !checked) return checked.error();
   auto file = storage::PageFile::open(path, seams.calls);
   if (!file) return file.error();
   const Pager::Limits limits = limits_of(file->header(), options, seams);
@@ -202,6 +211,14 @@ Result<std::unique_ptr<ModelState>> ModelState::open(const std::filesystem::path
     return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
                       "no memory to open the model; free some and try again");
   }
+}
+
+Result<std::uint64_t> ModelState::min_budget_bytes(const std::filesystem::path& path,
+                                                   const OpenOptions& options) {
+  if (const auto checked = check_options(options); !checked) return checked.error();
+  auto file = storage::PageFile::open(path);
+  if (!file) return file.error();
+  return Pager::min_budget_bytes(*file, limits_of(file->header(), options, {}));
 }
 
 Result<Model> ModelState::open_model(const std::filesystem::path& path, const OpenOptions& options,
@@ -248,6 +265,7 @@ Stats ModelState::stats() const noexcept {
     stats.fetch_requests_served = fetch_threads_->fetch_requests_served();
     stats.positions_prefetched = fetch_threads_->positions_prefetched();
   }
+  stats.layers = pager_->opened().layers;
   stats.frames = cache.frame_count;
   stats.arena_bytes = cache.arena_bytes;
   stats.table_bytes = cache.table_bytes + cache.reserved_bytes;

@@ -41,6 +41,11 @@ class ModelState {
   /// Implements Model::open.
   static Result<Model> open_model(const std::filesystem::path& path, const OpenOptions& options,
                                   const ModelSeams& seams = {});
+  /// Returns the smallest memory budget that a file opens with. Ignores `memory_budget_bytes`.
+  ///
+  /// errors  those of Model::open that do not depend on memory
+  static Result<std::uint64_t> min_budget_bytes(const std::filesystem::path& path,
+                                                const OpenOptions& options);
   static const ModelState& of(const Model& model) noexcept { return *model.state_; }
 
   const ModelInfo& info() const noexcept { return info_; }

@@ -68,9 +68,20 @@ ClosestPoint ProbeState::closest_point(const Vec3& query, const QueryOptions& op
   return {answer.side, answer.status};
 }
 
+// Without the side layer a solid has no sides, and nothing is searched.
+[[gnu::noinline]] Containment ProbeState::leave_unknown(const QueryOptions& options) noexcept {
+  last_parts_ = kSide;
+  last_side_rule_ = options.side_rule;
+  trace_.begin_query(options.wait);
+  model_.count_degraded(false);
+  return {Side::kUnknown, Status::kDegraded};
+}
+
 Containment ProbeState::contains(const Vec3& query, const QueryOptions& options) noexcept {
   if (!is_valid(query, options)) return {};
-  if (!model_.geometry.by_winding_number(options.side_rule)) return find_front(query, options);
+  const SideMeans means = model_.geometry.side_means(options.side_rule);
+  if (means == SideMeans::kFront) return find_front(query, options);
+  if (means == SideMeans::kNothing) return leave_unknown(options);
   const octree::Point scaled = model_.geometry.scale.in(query);
   last_parts_ = kSide;
   last_side_rule_ = options.side_rule;

@@ -74,6 +74,7 @@ class ProbeState {
                           const octree::Point& scaled, const octree::SideGrid::Lookup& lookup,
                           PageTraceWriter* trace) noexcept;
   Containment find_front(const Vec3& query, QueryOptions options) noexcept;
+  Containment leave_unknown(const QueryOptions& options) noexcept;
   void request(const Vec3& query, const QueryOptions& options, std::uint32_t parts) noexcept;
 
   // First, so that it is destroyed last: once the reader slot is released, another thread may make
@@ -94,7 +95,7 @@ inline Containment ProbeState::contains_fast(const Vec3& query,
   const bool is_valid = bits(options.max_error) < infinite &&
                         bits(options.max_distance) <= infinite && (options.parts & ~kAllParts) == 0;
   if (!coherence_.side_grid_answered || !is_valid ||
-      !model_.geometry.by_winding_number(options.side_rule))
+      model_.geometry.side_means(options.side_rule) != SideMeans::kWindingNumber)
     return {};
   const int winding = model_.geometry.side_grid.find_fast(query.x, query.y, query.z);
   if (winding == octree::SideGrid::kUnknown) return {};

@@ -19,9 +19,9 @@ class ProbeState;
 /// The state of an open model that queries read besides its pages. It lies in the model's
 /// QueryArena, so that no query causes a page fault. Any number of threads may read it.
 struct ServingModel {
-  ServingModel(const storage::FileHeader& header, cache::PageCache& its_cache,
-               const QueryArena::Parts& its_arena)
-      : geometry(header), cache(its_cache), arena(its_arena) {}
+  ServingModel(const storage::FileHeader& header, const OpenLayers& opened,
+               cache::PageCache& its_cache, const QueryArena::Parts& its_arena)
+      : geometry(header, opened), cache(its_cache), arena(its_arena) {}
 
   ModelGeometry geometry;
   cache::PageCache& cache;

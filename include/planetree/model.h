@@ -8,6 +8,7 @@
 
 #include "planetree/error.h"
 #include "planetree/export.h"
+#include "planetree/layers.h"
 #include "planetree/stats.h"
 #include "planetree/trace.h"
 
@@ -28,7 +29,8 @@ enum class Locking : std::uint8_t {
 /// Options of Model::open.
 struct OpenOptions {
   /// Budget: maximum memory in bytes of the model, its threads and its probes. Open allocates and
-  /// prefaults one frame for each page of the model, or as many frames as fit in the budget. If the
+  /// prefaults one frame for each page that queries may read, or as many frames as fit in the
+  /// budget. These are the pages of the layers that are opened, without field pages. If the
   /// budget is below the minimum, open fails with kNoMemory, and the error text gives the minimum.
   /// The budget includes page traces, the buffers of all `max_probes` probes, and 8 KiB for each
   /// io_uring ring (see wait_limit_ms). So memory does not grow beyond the budget after open. The
@@ -53,6 +55,15 @@ struct OpenOptions {
   /// Maximum number of probes at one time, 1 to kMaxProbes. Open reserves memory of the budget for
   /// all of them.
   unsigned max_probes = 16;
+  /// Layers to open: kSideLayer and kFieldLayer, combined with `|`. The distance layer is always
+  /// opened. A layer that the file does not have is left out. Of a layer that is not opened, no
+  /// page is read, and nothing is allocated or counted towards the budget. Distances, nearest
+  /// points and triangles of exact answers have the same bits for all layers.
+  ///
+  /// Without kSideLayer, a side by SideRule::kSolid is kUnknown: a query whose parts have kSide or
+  /// kNormal is kDegraded, and so is Probe::contains. The normal then follows the orientation of
+  /// the mesh, unless NormalRule::kTowardQuery is set. Sides by SideRule::kSurface are as always.
+  std::uint32_t layers = kAllLayers;
   Locking locking = Locking::kTry;  ///< whether memory is locked at open
   /// Capacity of each probe's page trace, in accesses, up to kMaxPageTraceCapacity; see
   /// Model::drain_page_trace. It is rounded up to a power of two. Each access takes 16 bytes. 0
@@ -98,7 +109,8 @@ struct OpenOptions {
 class PLANETREE_API Model {
  public:
   /// Opens and checks a file, allocates and locks the memory, reads the root page, and starts the
-  /// threads. If the file has a mask, also reads the upper cells of the mask into the side grid.
+  /// threads. If the side layer is opened, also reads the upper cells of the mask into the side
+  /// grid. If the field layer is opened, also reads the field.
   ///
   /// path     a regular file.
   /// errors   kUnsupported: compiler options or the processor change floating-point results.

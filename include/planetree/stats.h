@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "planetree/layers.h"
 #include "planetree/types.h"
 
 namespace planetree {
@@ -33,7 +34,8 @@ struct ModelInfo {
       region_upper;                    ///< upper corner of the region
   std::uint64_t unbalanced_edges = 0;  ///< edges that are not balanced, see watertight()
   /// Number of caps: triangles that close the surface, for finding sides. They are no part of the
-  /// surface: no distance, point, normal or index is of a cap.
+  /// surface: no distance, point, normal or index is of a cap. A file without the side layer has
+  /// none.
   std::uint64_t caps = 0;
   double cap_area = 0;  ///< sum of the caps' areas, square units
   /// How sides are decided by default: SideRule::kSolid or kSurface. An open surface of an openness
@@ -43,13 +45,14 @@ struct ModelInfo {
   /// How open the surface of the input is: the length of the sum of the triangles' area vectors,
   /// divided by the sum of their areas, without strays. 0 if closed, 1 for a flat sheet.
   double openness = 0;
-  bool float64 = false;          ///< whether coordinates are doubles; not all fit a float
-  std::uint64_t nodes = 0;       ///< inner nodes of the tree
-  std::uint64_t blocks = 0;      ///< leaves of the tree: blocks of up to 16 triangles
-  std::uint32_t levels = 0;      ///< height of the tree, in nodes
-  std::uint32_t pages = 0;       ///< pages of all parts; numbers go from 0
-  std::uint32_t page_bytes = 0;  ///< maximum bytes of a decoded page; a power of two
-  std::uint64_t file_bytes = 0;  ///< length of the file
+  bool float64 = false;               ///< whether coordinates are doubles; not all fit a float
+  std::uint64_t nodes = 0;            ///< inner nodes of the tree
+  std::uint64_t blocks = 0;           ///< leaves of the tree: blocks of up to 16 triangles
+  std::uint32_t levels = 0;           ///< height of the tree, in nodes
+  std::uint32_t layers = kAllLayers;  ///< layers of the file, as BuildOptions::layers
+  std::uint32_t pages = 0;            ///< pages of all parts; numbers go from 0
+  std::uint32_t page_bytes = 0;       ///< maximum bytes of a decoded page; a power of two
+  std::uint64_t file_bytes = 0;       ///< length of the file
   /// Stored bytes of each part of the file. They add up to `file_bytes`.
   struct {
     std::uint64_t headers = 0;         ///< header and its copy
@@ -79,7 +82,8 @@ struct Stats {
   std::uint64_t waits_given_up = 0;     ///< waits that OpenOptions::wait_limit_ms ended
   std::uint64_t degraded_answers = 0;   ///< answers of Status::kDegraded
   /// Of these, answers of queries that lacked no page: QueryOptions::max_work was spent, a wall of
-  /// the region is nearer than the surface, or the winding number is 1/2 to the last bits.
+  /// the region is nearer than the surface, the winding number is 1/2 to the last bits, or the
+  /// model has no side layer.
   std::uint64_t degraded_without_misses = 0;
   /// Fetch requests: queries whose answers lacked pages. Most are real-time queries. The others are
   /// blocking queries that reached the wait limit. A newer request of a probe replaces an older one
@@ -88,6 +92,7 @@ struct Stats {
   std::uint64_t fetch_requests_served = 0;  ///< fetch requests that a fetch thread has served
   std::uint64_t positions_prefetched = 0;   ///< predicted positions whose pages were fetched
   std::uint64_t page_trace_dropped = 0;     ///< accesses lost because a page trace was full
+  std::uint32_t layers = kDistanceLayer;    ///< layers that are open; see OpenOptions::layers
   std::uint64_t frames = 0;                 ///< frames: maximum number of pages in memory
   std::uint64_t arena_bytes = 0;            ///< memory of the frames, not of the whole arena
   std::uint64_t table_bytes = 0;            ///< all other memory: tables, query arena, buffers

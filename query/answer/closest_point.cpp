@@ -47,7 +47,7 @@ class ClosestPointQuery {
         options_(options),
         max_units_(max_units(options)),
         remember_(may_use_coherence(coherence_, options)),
-        by_winding_number_(model_.by_winding_number(options.side_rule)),
+        side_means_(model_.side_means(options.side_rule)),
         needs_front_(needs_front(options)),
         scaled_(model_.scale.in(query)),
         far_(is_far(scaled_)),
@@ -60,7 +60,7 @@ class ClosestPointQuery {
   // Returns whether a part is not exact because pages were missing or the work was spent.
   bool run() {
     const std::uint32_t parts = computed_parts(options_.parts);
-    if (parts == kSide && !by_winding_number_) return find_side_of_sheet();
+    if (parts == kSide && !by_winding_number()) return find_side_alone();
     octree::NearestAnswer nearest =
         (parts & kDistance) != 0 ? find_nearest((parts & kSide) != 0) : octree::NearestAnswer();
     if ((parts & kDistance) != 0) report_nearest(nearest);
@@ -78,15 +78,22 @@ class ClosestPointQuery {
     return work_.units < max_units_ ? max_units_ - work_.units : 0;
   }
 
+  bool by_winding_number() const { return side_means_ == SideMeans::kWindingNumber; }
+  bool by_front() const { return side_means_ == SideMeans::kFront; }
+
   // Whether the query needs to know if it is in front of the nearest feature.
   bool needs_front(const QueryOptions& options) const {
     const std::uint32_t parts = computed_parts(options.parts);
-    return (!by_winding_number_ && (parts & kSide) != 0) ||
+    return (by_front() && (parts & kSide) != 0) ||
            (options.normal_rule == NormalRule::kTowardQuery && (parts & kNormal) != 0);
   }
 
-  // Finds the side alone, by SideRule::kSurface.
-  [[gnu::noinline]] bool find_side_of_sheet() {
+  // Finds the side alone, by SideRule::kSurface or not at all.
+  [[gnu::noinline]] bool find_side_alone() {
+    if (!by_front()) {
+      find_side({}, false);
+      return incomplete_;
+    }
     octree::NearestLimits limits;
     limits.max_work = options_.max_work;
     octree::NearestAnswer nearest = far_ ? farthest(model_.tree, point_) : search_nearest(limits);
@@ -100,7 +107,7 @@ class ClosestPointQuery {
   // Starts to prefetch what the search for the side will read, if a search of the mask is likely.
   void start_prefetch() {
     if (!pages_.prefetch_hook || !coherence_.searched_side || !remember_ || far_ ||
-        !by_winding_number_ || model_.region.has_walls() || coherence_.side.same_side(point_, 0))
+        !by_winding_number() || model_.region.has_walls() || coherence_.side.same_side(point_, 0))
       return;
     prefetcher_.emplace(model_.mask, model_.side_grid, point_);
     if (prefetcher_->goes_on())
@@ -115,7 +122,7 @@ class ClosestPointQuery {
     if (with_side) start_prefetch();
     octree::NearestLimits limits;
     // By the nearest feature the side belongs to the nearest triangle alone.
-    const bool may_err = by_winding_number_ || !with_side;
+    const bool may_err = !by_front() || !with_side;
     limits.max_error = may_err ? model_.scale.in(options_.max_error) : 0;
     limits.max_distance = model_.scale.in(options_.max_distance);
     limits.max_work = options_.max_work;
@@ -162,7 +169,7 @@ class ClosestPointQuery {
 
   const SideResult& find_side(const octree::NearestAnswer& nearest, bool with_normal) {
     const SideResult& side =
-        by_winding_number_ ? classify(nearest, with_normal) : classify_by_front(nearest);
+        by_winding_number() ? classify(nearest, with_normal) : classify_by_front(nearest);
     answer_.side = side.side;
     if (side.status == Status::kDegraded) mark_degraded();
     return side;
@@ -188,9 +195,9 @@ class ClosestPointQuery {
     return side_result_;
   }
 
-  // Finds the side by SideRule::kSurface.
+  // Finds the side by SideRule::kSurface. By another rule it stays unknown.
   [[gnu::noinline]] const SideResult& classify_by_front(const octree::NearestAnswer& nearest) {
-    const bool is_known = !far_ && is_proven(model_.tree, nearest);
+    const bool is_known = by_front() && !far_ && is_proven(model_.tree, nearest);
     return side_result_ = side_of(is_known ? front(nearest) : octree::Front::kUnknown);
   }
 
@@ -301,7 +308,7 @@ class ClosestPointQuery {
   const QueryOptions& options_;
   const std::uint64_t max_units_;
   const bool remember_;
-  const bool by_winding_number_;  // decides the side; else the nearest feature
+  const SideMeans side_means_;  // what decides the side
   const bool needs_front_;
   const octree::Point scaled_;  // the query in the model frame
   const bool far_;

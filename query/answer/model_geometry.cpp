@@ -37,11 +37,12 @@ octree::TreeInfo cap_info(const storage::FileHeader& header, const octree::TreeI
   return caps;
 }
 
-octree::MaskInfo mask_info(const storage::FileHeader& header, const octree::TreeInfo& tree) {
+octree::MaskInfo mask_info(const storage::FileHeader& header, const OpenLayers& opened,
+                           const octree::TreeInfo& tree) {
   octree::MaskInfo mask;
   mask.page_bytes = header.page_bytes;
   mask.first_page = header.first_mask_page();
-  mask.page_count = header.model.mask_page_count;
+  mask.page_count = opened.has_side() ? header.model.mask_page_count : 0;
   mask.lower = tree.core_lower;
   mask.beside_strays = tree.has_strays;
   return mask;
@@ -56,22 +57,21 @@ octree::Region region_of(const storage::ModelRecord& model) {
           point_in_frame(scale, model.box_lower), point_in_frame(scale, model.box_upper)};
 }
 
-ModelGeometry::ModelGeometry(const storage::FileHeader& header)
+ModelGeometry::ModelGeometry(const storage::FileHeader& header, const OpenLayers& opened)
     : scale(header.model.scale_exponent),
       tree(tree_info(header, scale)),
       caps(cap_info(header, tree)),
-      mask(mask_info(header, tree)),
+      mask(mask_info(header, opened, tree)),
       region(region_of(header.model)),
       region_corner(region.clamped(tree.core_lower)),
       diagonal((tree.core_upper - tree.core_lower).norm()),
       cap_area(header.model.cap_area),
       region_winding(header.model.region_winding) {
-  const auto set = [this](SideRule rule, bool by_winding_number) {
-    by_winding_number_[static_cast<std::uint8_t>(rule)] = by_winding_number;
-  };
-  set(SideRule::kOfFile, header.model.side_rule == storage::SideRule::kSolid);
-  set(SideRule::kSolid, true);
-  if (header.model.cap_count == 0) return;
+  const auto solid = opened.has_side() ? SideMeans::kWindingNumber : SideMeans::kNothing;
+  const auto set = [&](SideRule rule) { side_means_[static_cast<std::uint8_t>(rule)] = solid; };
+  if (header.model.side_rule == storage::SideRule::kSolid) set(SideRule::kOfFile);
+  set(SideRule::kSolid);
+  if (header.model.cap_count == 0 || !opened.has_side()) return;
   tree.caps = &caps;
   cap_grid = octree::CapGrid::unfilled();
 }

@@ -10,20 +10,28 @@
 #include "octree/mask/side_grid.h"
 #include "octree/traversal/tree_view.h"
 #include "planetree/types.h"
+#include "query/file/open_layers.h"
 #include "query/file/scale.h"
 #include "storage/file/file_layout.h"
 
 namespace planetree::query {
 
+/// What decides the sides of a model by a SideRule.
+enum class SideMeans : std::uint8_t {
+  kFront,          ///< the nearest feature, or the rule is out of range
+  kWindingNumber,  ///< the winding number
+  kNothing,        ///< it would be the winding number, but the side layer is not opened
+};
+
 /// The data of a model that queries need besides its pages. It does not change after the side grid
 /// is filled; then any number of threads may read it. Lengths are in the model frame.
 struct ModelGeometry {
-  explicit ModelGeometry(const storage::FileHeader& header);
+  ModelGeometry(const storage::FileHeader& header, const OpenLayers& opened);
   ModelGeometry(const ModelGeometry&) = delete;  // `tree` points to `caps`
   ModelGeometry& operator=(const ModelGeometry&) = delete;
 
   Scale scale;
-  octree::TreeInfo tree;  ///< tree.caps is null if the surface is watertight
+  octree::TreeInfo tree;  ///< tree.caps is null if there are no caps or they are not opened
   octree::TreeInfo caps;
   octree::MaskInfo mask;
   octree::SideGrid side_grid;   ///< empty until filled
@@ -35,14 +43,12 @@ struct ModelGeometry {
   double cap_area;              ///< sum of the caps' areas
   std::int64_t region_winding;  ///< winding number at `region_corner`, caps included
 
-  /// Whether a rule decides the sides of this model by the winding number; false if it is out of
-  /// range.
-  bool by_winding_number(SideRule rule) const noexcept {
-    return by_winding_number_[static_cast<std::uint8_t>(rule)];
+  SideMeans side_means(SideRule rule) const noexcept {
+    return side_means_[static_cast<std::uint8_t>(rule)];
   }
 
  private:
-  std::array<bool, 256> by_winding_number_{};  // of each value that a SideRule may have
+  std::array<SideMeans, 256> side_means_{};  // of each value that a SideRule may have
 };
 
 /// Returns the part of space in which a file holds the whole surface, model frame.

@@ -9,54 +9,68 @@
 #include "query/file/tree_header.h"
 
 namespace planetree::query {
+namespace {
+
+bool stored_fits_frame(const storage::FileHeader& header) {
+  return header.max_stored_bytes <= header.page_bytes;
+}
+
+// Bytes that each fetcher needs to unpack a page.
+std::uint64_t scratch_bytes(const storage::FileHeader& header) {
+  return header.max_raw_bytes + (stored_fits_frame(header) ? 0 : header.max_stored_bytes);
+}
+
+}  // namespace
 
 Result<std::unique_ptr<Pager>> Pager::create(storage::PageFile file, const Limits& limits) {
   if (const auto checked = check_tree_header(file.header()); !checked) return checked.error();
-  std::unique_ptr<Pager> pager(new Pager(std::move(file)));
+  std::unique_ptr<Pager> pager(new Pager(std::move(file), limits.opened));
   if (const auto claimed = pager->claim(limits); !claimed) return claimed.error();
   if (const auto pinned = pager->cache_->pin(0); !pinned) return pinned.error();
   return pager;
 }
 
-bool Pager::stored_fits_frame() const noexcept {
-  return file_.header().max_stored_bytes <= file_.header().page_bytes;
-}
-
-std::uint64_t Pager::scratch_bytes() const noexcept {
-  return file_.header().max_raw_bytes + (stored_fits_frame() ? 0 : file_.header().max_stored_bytes);
-}
-
-Result<void> Pager::claim(const Limits& limits) {
-  const storage::FileHeader& header = file_.header();
-  const QueryArena::Needs& needs = limits.arena;
+cache::CacheLimits Pager::cache_limits(const storage::PageFile& file,
+                                       const Limits& limits) noexcept {
+  const storage::FileHeader& header = file.header();
   cache::CacheLimits cache_limits{};
   cache_limits.budget_bytes = limits.budget_bytes;
-  cache_limits.page_count = header.page_count;
+  cache_limits.page_count = limits.opened.page_count(header);
+  cache_limits.unused_pages = limits.opened.unused_pages(header);
   cache_limits.frame_bytes = header.page_bytes;
   cache_limits.policy = limits.policy;
   cache_limits.max_readers = limits.readers();
   cache_limits.own_readers = limits.thread_probes;
-  // pin() is one more.
-  const std::uint64_t fetcher_count = std::uint64_t{cache_limits.max_readers} + 1;
-  max_wait_ = std::min(limits.wait_limit, kMaxReadWait);
-  max_read_waits_ = limits.use_io_uring ? std::min(fetcher_count, kMaxReadWaits) : 0;
-  const std::uint64_t wait_bytes =
-      fetcher_count * sizeof(FetcherWait) + max_read_waits_ * storage::ReadWait::kMappedBytes;
-  cache_limits.reserved_bytes = file_.table_memory_bytes() + fetcher_count * scratch_bytes() +
-                                wait_bytes + sizeof(Pager) + QueryArena::bytes(needs) +
+  const std::uint64_t wait_bytes = fetcher_count(limits) * sizeof(FetcherWait) +
+                                   max_read_waits(limits) * storage::ReadWait::kMappedBytes;
+  cache_limits.reserved_bytes = file.table_memory_bytes() +
+                                fetcher_count(limits) * scratch_bytes(header) + wait_bytes +
+                                sizeof(Pager) + QueryArena::bytes(limits.arena) +
                                 limits.probe_bytes * limits.max_probes + limits.thread_bytes;
+  return cache_limits;
+}
+
+std::uint64_t Pager::min_budget_bytes(const storage::PageFile& file,
+                                      const Limits& limits) noexcept {
+  return cache::minimum_budget_bytes(cache_limits(file, limits));
+}
+
+Result<void> Pager::claim(const Limits& limits) {
+  max_wait_ = std::min(limits.wait_limit, kMaxReadWait);
+  max_read_waits_ = max_read_waits(limits);
   const auto fill = [](void* context, const cache::FillRequest& request) {
     return static_cast<Pager*>(context)->fill(request);
   };
-  auto cache = cache::PageCache::create(cache_limits, fill, this);
+  auto cache = cache::PageCache::create(cache_limits(file_, limits), fill, this);
   if (!cache) return cache.error();
   cache_ = std::move(*cache);
-  auto arena = QueryArena::claim(needs);
+  auto arena = QueryArena::claim(limits.arena);
   if (!arena) return arena.error();
   query_arena_.emplace(*std::move(arena));
   if (const auto locked = lock(limits.locking); !locked) return locked;
-  scratch_.reset(new (std::nothrow) std::byte[fetcher_count * scratch_bytes()]);
-  fetcher_waits_.reset(new (std::nothrow) FetcherWait[fetcher_count]);
+  const std::uint64_t fetchers = fetcher_count(limits);
+  scratch_.reset(new (std::nothrow) std::byte[fetchers * scratch_bytes(file_.header())]);
+  fetcher_waits_.reset(new (std::nothrow) FetcherWait[fetchers]);
   if (!scratch_ || !fetcher_waits_)
     return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
                       "no memory to read pages; free some and try again");
@@ -77,12 +91,13 @@ Result<void> Pager::lock(Locking locking) noexcept {
 Result<cache::FillResult> Pager::fill(const cache::FillRequest& request) noexcept {
   const storage::FileHeader& header = file_.header();
   const storage::PageEntry& entry = file_.entries()[request.page];
-  std::byte* const scratch = scratch_.get() + request.fetcher * scratch_bytes();
+  std::byte* const scratch = scratch_.get() + request.fetcher * scratch_bytes(header);
   const std::span<std::byte> raw(scratch, entry.raw_bytes);
   // The frame is written last. Until then it may hold the stored bytes.
   const std::span<std::byte> stored =
-      stored_fits_frame() ? request.frame
-                          : std::span(scratch + header.max_raw_bytes, header.max_stored_bytes);
+      stored_fits_frame(header)
+          ? request.frame
+          : std::span(scratch + header.max_raw_bytes, header.max_stored_bytes);
   if (request.may_block) {
     if (const auto read = file_.read_page(request.page, stored, raw); !read) return read.error();
   } else {

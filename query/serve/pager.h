@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstddef>
@@ -11,6 +12,7 @@
 #include "cache/page_cache.h"
 #include "planetree/error.h"
 #include "planetree/model.h"
+#include "query/file/open_layers.h"
 #include "query/serve/query_arena.h"
 #include "storage/file/page_file.h"
 #include "storage/system/read_wait.h"
@@ -23,6 +25,7 @@ class Pager {
  public:
   struct Limits {
     std::uint64_t budget_bytes = 0;
+    OpenLayers opened;
     QueryArena::Needs arena;
     std::uint64_t probe_bytes = 0;  ///< memory of each probe outside of the QueryArena
     unsigned max_probes = 0;
@@ -43,10 +46,13 @@ class Pager {
   ///         a page
   static Result<std::unique_ptr<Pager>> create(storage::PageFile file, const Limits& limits);
 
+  /// Returns the smallest budget that create() accepts. Ignores `limits.budget_bytes`.
+  static std::uint64_t min_budget_bytes(const storage::PageFile& file,
+                                        const Limits& limits) noexcept;
+
   const storage::PageFile& file() const noexcept { return file_; }
+  const OpenLayers& opened() const noexcept { return opened_; }
   cache::PageCache& cache() const noexcept { return *cache_; }
-  /// Bytes that each fetcher needs to unpack a page.
-  std::uint64_t scratch_bytes() const noexcept;
   /// Memory of the states of model and probes, claimed and locked with the cache's.
   QueryArena& query_arena() noexcept { return *query_arena_; }
   std::uint64_t locked_bytes() const noexcept {
@@ -54,15 +60,25 @@ class Pager {
   }
 
  private:
-  explicit Pager(storage::PageFile file) : file_(std::move(file)) {}
+  Pager(storage::PageFile file, const OpenLayers& opened)
+      : file_(std::move(file)), opened_(opened) {}
   Result<void> claim(const Limits& limits);
   Result<void> lock(Locking locking) noexcept;
-  bool stored_fits_frame() const noexcept;
+  static cache::CacheLimits cache_limits(const storage::PageFile& file,
+                                         const Limits& limits) noexcept;
+  /// pin() is one more than the readers.
+  static std::uint64_t fetcher_count(const Limits& limits) noexcept {
+    return std::uint64_t{limits.readers()} + 1;
+  }
+  static std::uint64_t max_read_waits(const Limits& limits) noexcept {
+    return limits.use_io_uring ? std::min(fetcher_count(limits), kMaxReadWaits) : 0;
+  }
   Result<cache::FillResult> fill(const cache::FillRequest& request) noexcept;
   storage::ReadLimits read_limits(const cache::FillRequest& request) noexcept;
   storage::ReadWait* read_wait_for(std::uint32_t fetcher) noexcept;
 
   storage::PageFile file_;
+  const OpenLayers opened_;
   // Maximum number of fetchers that have a ReadWait. Each takes a file descriptor while the model
   // is open. The first fetchers that need one get one; the others poll.
   static constexpr std::uint64_t kMaxReadWaits = 16;

@@ -11,6 +11,7 @@
 
 #include "planetree/probe.h"
 #include "query/model_state.h"
+#include "query/probe_state.h"
 #include "tests/cache/allocation_count.h"
 #include "tests/query/answer_bits.h"
 #include "tests/query/query_costs.h"

@@ -61,7 +61,8 @@ std::string rule_text(const Explanation& explanation) {
       fmt::format("cell {} of the mask", cell_text(explanation.reason.cell.octcode()));
   switch (explanation.reason.rule) {
     case Rule::kNone:
-      return "pages that decide the side cannot be read";
+      return explanation.has_side_layer ? "pages that decide the side cannot be read"
+                                        : "the file has no side layer";
     case Rule::kRegion:
       return "the file is of a region, and the point is beyond a wall";
     case Rule::kOutsideBox:
@@ -128,10 +129,12 @@ Result<Explanation> explain(const std::filesystem::path& path, const Vec3& query
   result.answer = probe->closest_point(query, {});
   query::PageAccessor accessor(probe->reader(), Wait::kForPages);
   constexpr std::uint64_t kAllNodes = ~std::uint64_t{0};
-  if (model.by_winding_number(SideRule::kOfFile))
+  const query::SideMeans means = model.side_means(SideRule::kOfFile);
+  result.has_side_layer = means != query::SideMeans::kNothing;
+  if (means == query::SideMeans::kWindingNumber)
     result.side_result = query::find_side(model, point, kAllNodes, accessor.pages(),
                                           result.side_work, &result.reason);
-  else
+  else if (means == query::SideMeans::kFront)
     result.reason.rule = Rule::kFront;
   result.pages_lost = opened->model->stats().quarantined_pages > 0;
   const octree::CellGrid grid(model.mask.lower);

@@ -18,6 +18,7 @@ struct Explanation {
   Vec3 query;
   ClosestPoint answer;
   query::SideResult side_result;
+  bool has_side_layer = true;  ///< or sides do not need it
   query::SideReason reason;
   Vec3 cell_lower, cell_upper;          ///< corners of reason.cell, model units
   Vec3 end;                             ///< reason.end, model units
