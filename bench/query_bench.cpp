@@ -17,9 +17,11 @@ namespace {
 
 struct Arguments {
   std::string model;
+  std::string region;  // file of a region; empty: none
   std::string workload = "uniform";
   std::string part = "distance";
   std::size_t queries = 2000;
+  std::uint32_t layers = kAllLayers;
   double max_error = 0;  // share of the diagonal
   std::uint32_t max_work = QueryOptions::kNoLimit;
   bool never_wait = false;
@@ -45,16 +47,48 @@ double query_all(Probe& probe, const std::vector<Vec3>& points, bool side_alone,
   return sum;
 }
 
+Result<Model> open(const std::string& path, std::uint32_t layers) {
+  return Model::open(path, {.memory_budget_bytes = std::uint64_t{16} << 30, .layers = layers});
+}
+
+// Where points are made: about the core of a model, or about its region.
+Box box_of(const ModelInfo& info) {
+  if (!info.has_region) return {info.core_lower, info.core_upper};
+  const auto inner = [](const Vec3& a, const Vec3& b, auto of) {
+    return Vec3{of(a.x, b.x), of(a.y, b.y), of(a.z, b.z)};
+  };
+  return {
+      inner(info.region_lower, info.core_lower, [](double a, double b) { return a > b ? a : b; }),
+      inner(info.region_upper, info.core_upper, [](double a, double b) { return a < b ? a : b; })};
+}
+
+// Makes points that a model answers exactly: in a region, those that no wall is nearer to.
+std::vector<Vec3> make_points(const Model& model, Probe& probe, Workload workload,
+                              std::size_t count) {
+  const SurfaceOf surface = [&](const Vec3& query) { return probe.closest_point(query); };
+  auto points = make_queries(workload, box_of(model.info()), surface, count, 1);
+  std::erase_if(points, [&](const Vec3& point) {
+    return model.info().has_region &&
+           probe.closest_point(point, {.parts = kDistance}).status != Status::kExact;
+  });
+  return points;
+}
+
 int run(const Arguments& arguments) {
-  const auto model = Model::open(arguments.model, {.memory_budget_bytes = std::uint64_t{16} << 30});
-  if (!model) return std::cerr << "query_bench: " << model.error().text << '\n', 1;
-  auto probe = Probe::create(*model);
-  if (!probe) return std::cerr << "query_bench: " << probe.error().text << '\n', 1;
-  const Box box{model->info().core_lower, model->info().core_upper};
-  const SurfaceOf surface = [&](const Vec3& query) { return probe->closest_point(query); };
+  const auto fail = [](const Error& error) {
+    return std::cerr << "query_bench: " << error.text << '\n', 1;
+  };
+  const auto model = open(arguments.model, arguments.layers);
+  if (!model) return fail(model.error());
+  const auto maker =
+      open(arguments.region.empty() ? arguments.model : arguments.region, kAllLayers);
+  if (!maker) return fail(maker.error());
+  auto probe = Probe::create(*model), making = Probe::create(*maker);
+  if (!probe || !making) return fail(probe ? making.error() : probe.error());
   for (const Workload workload : kWorkloads) {
     if (name_of(workload) != arguments.workload) continue;
-    const auto points = make_queries(workload, box, surface, arguments.queries, 1);
+    const auto points = make_points(*maker, *making, workload, arguments.queries);
+    const Box box = box_of(maker->info());
     const QueryOptions options = options_of(arguments, box);
     const bool side_alone = arguments.part == "side";
     query_all(*probe, points, side_alone, {.parts = options.parts});
@@ -63,7 +97,7 @@ int run(const Arguments& arguments) {
     CALLGRIND_ZERO_STATS;
     const double sum = query_all(*probe, points, side_alone, options);
     CALLGRIND_STOP_INSTRUMENTATION;
-    fmt::print("{:.17g}\n", sum);
+    fmt::print("{:.17g} of {} points\n", sum, points.size());
     return 0;
   }
   std::cerr << "query_bench: there is no workload '" << arguments.workload << "'\n";
@@ -83,6 +117,11 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember({"distance", "side", "all"}))
       ->capture_default_str();
   app.add_option("--queries", arguments.queries, "How many")->capture_default_str();
+  app.add_option("--region", arguments.region,
+                 "File of a region of the same mesh: make points there that both files answer "
+                 "exactly");
+  app.add_option("--layers", arguments.layers, "Layers to open: 1 distance, 2 side, 4 field; sums")
+      ->capture_default_str();
   app.add_option("--max-error", arguments.max_error, "Allowed error, as a share of the diagonal")
       ->capture_default_str();
   app.add_option("--max-work", arguments.max_work, "Maximum units of work of a query");
