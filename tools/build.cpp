@@ -16,6 +16,7 @@
 #include "tools/cli/coordinate_text.h"
 #include "tools/cli/file_digest.h"
 #include "tools/cli/file_text.h"
+#include "tools/cli/layer_option.h"
 #include "tools/cli/progress.h"
 #include "tools/cli/size_text.h"
 #include "tools/cli/subcommand_options.h"
@@ -117,6 +118,7 @@ std::string json_report(const BuildArguments& arguments, const BuildReport& buil
       {"unbalanced_edges", built.unbalanced_edges},
       {"side_rule", built.side_rule == SideRule::kSurface ? "surface" : "solid"},
       {"openness", built.openness},
+      {"layers", layer_words(built.layers)},
       {"levels", built.levels},
       {"nodes", built.nodes},
       {"blocks", built.blocks},
@@ -284,6 +286,11 @@ void add_build(CLI::App& app, Console& console, std::function<int()>& action) {
           "auto: surface if the mesh is not watertight and the sum of its area vectors is at least "
           "0.375 of its area"),
       "auto");
+  add_layers(
+      subcommand, arguments.options.layers,
+      "Build only these layers of the file: distance (always built), side (sides of solids), "
+      "field (answers within an error, and degraded ones), with commas between them. What is "
+      "left out cannot be opened; sides of solids are unknown without side");
   subcommand.flag(
       "--resume", arguments.options.resume,
       "Keep a checkpoint in the directory OUT.ptree.work, next to the output or in --temp-dir, "

@@ -11,6 +11,7 @@
 #include "planetree/model.h"
 #include "planetree/probe.h"
 #include "tools/answer_tally.h"
+#include "tools/cli/layer_option.h"
 #include "tools/cli/open_model.h"
 #include "tools/cli/progress.h"
 #include "tools/points/point_reader.h"
@@ -33,7 +34,11 @@ class QueryRun {
         console_(console),
         model_(model),
         probe_(probe),
+        options_(arguments.options),
+        form_(arguments.form),
         progress_(arguments.quiet || shows_rows(arguments, console), arguments.json) {
+    if (!arguments.parts_are_given && !form_.signed_distance)
+      form_.parts = options_.parts &= parts_told(model, options_.side_rule);
     progress_.start("answering", 0, "points");
   }
 
@@ -58,10 +63,10 @@ class QueryRun {
 
  private:
   void run(std::span<const Vec3> queries, std::span<ClosestPoint> answers) {
-    probe_.closest_points(queries, answers, arguments_.options);
+    probe_.closest_points(queries, answers, options_);
   }
   void run(std::span<const Vec3> queries, std::span<Containment> answers) {
-    probe_.contains(queries, answers, arguments_.options);
+    probe_.contains(queries, answers, options_);
   }
 
   double seconds() const {
@@ -70,7 +75,7 @@ class QueryRun {
 
   template <class Answer>
   int answer_all(PointReader& points, AnswerOutput& output) {
-    AnswerWriter writer(output, arguments_.form);
+    AnswerWriter writer(output, form_);
     std::vector<Vec3> queries(kChunkPoints);
     std::vector<Answer> answers(kChunkPoints);
     Result<bool> wanted = true;
@@ -111,6 +116,8 @@ class QueryRun {
   Console& console_;
   const Model& model_;
   Probe& probe_;
+  QueryOptions options_;
+  AnswerForm form_;
   Progress progress_;
   AnswerTally tally_;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
@@ -135,6 +142,7 @@ Result<void> check_output(const QueryArguments& arguments, const Console& consol
 OpenOptions open_options(const QueryArguments& arguments) {
   OpenOptions options;
   options.memory_budget_bytes = arguments.memory_bytes;
+  options.layers = arguments.layers;
   options.batch_threads = static_cast<unsigned>(arguments.threads);
   options.wait_limit_ms = static_cast<unsigned>(arguments.wait_limit_ms);
   options.use_io_uring = !arguments.no_io_uring;

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "octree/builder/mesh/stream/mesh_text.h"
+#include "tools/cli/layer_option.h"
 #include "tools/cli/subcommand_options.h"
 #include "tools/points/line_fields.h"
 #include "tools/query.h"
@@ -83,12 +84,15 @@ void add_answers(SubcommandOptions& subcommand, QueryArguments& arguments) {
       "interval of lower and upper is that of the distance without its sign");
   const auto parts = subcommand.text(
       "--parts", "PARTS", parts_complaint,
-      [&arguments](const std::string& text) { arguments.options.parts = parts_of(text); },
+      [&arguments](const std::string& text) {
+        arguments.options.parts = parts_of(text);
+        arguments.parts_are_given = true;
+      },
       "Compute only these parts, to save time: distance (with interval, nearest point, triangle "
       "and feature), side, normal (needs the others and includes them), with commas between them. "
       "The other columns of csv are empty, the other keys of jsonl are left out, the other numbers "
       "of f64 are NaN");
-  subcommand.default_text(parts, "distance,side,normal");
+  subcommand.default_text(parts, "distance,side,normal, or what --layers leaves of them");
   static const std::map<std::string, SideRule> rules = {{"solid", SideRule::kSolid},
                                                         {"surface", SideRule::kSurface}};
   subcommand.default_text(
@@ -154,6 +158,7 @@ void add_limits(SubcommandOptions& subcommand, Options& options) {
                   "process that tries");
   subcommand.default_text(
       subcommand.bytes("--memory", arguments.memory_bytes, "Maximum memory for the model"), "256M");
+  add_open_layers(subcommand, arguments.layers);
   subcommand.default_text(
       subcommand.count(
           "--threads", arguments.threads, OpenOptions::kMaxBatchThreads,

@@ -13,6 +13,7 @@
 
 #include "planetree/model.h"
 #include "planetree/probe.h"
+#include "tools/cli/layer_option.h"
 #include "tools/cli/open_model.h"
 #include "tools/cli/output_file.h"
 #include "tools/cli/subcommand_options.h"
@@ -37,6 +38,7 @@ void drop_from_page_cache(const std::filesystem::path& path) {
 OpenOptions options_of(const TouchArguments& arguments) {
   OpenOptions options;
   options.memory_budget_bytes = arguments.memory_bytes;
+  options.layers = arguments.layers;
   options.use_io_uring = !arguments.no_io_uring;
   options.max_probes = 1;
   if (!arguments.trace.empty()) options.page_trace_capacity = PageTraceDrain::kAccessesWaiting;
@@ -44,9 +46,11 @@ OpenOptions options_of(const TouchArguments& arguments) {
 }
 
 /// Finds the tip's path with a model of its own, so that it leaves no page in the session's memory.
+/// That model has all layers, so that the path does not depend on those of the session.
 Result<std::vector<Vec3>> find_path(const TouchArguments& arguments, Console& console) {
   OpenOptions options = options_of(arguments);
   options.page_trace_capacity = 0;
+  options.layers = kAllLayers;
   const auto model = open_model(arguments.file, options, console);
   if (!model) return model.error();
   auto probe = Probe::create(*model);
@@ -88,7 +92,7 @@ int run_touch(const TouchArguments& arguments, Console& console) {
                       static_cast<std::int64_t>(arguments.rate_hz);
   std::optional<PageTraceDrain> drain;
   if (*trace) drain.emplace(*model);
-  const TouchRecord record = run_touch_session(*probe, *path, period);
+  const TouchRecord record = run_touch_session(*probe, *path, period, parts_told(*model));
   const std::string trace_text = drain ? touch_trace(drain->finish()) : "";
   console.print(arguments.json ? touch_json(arguments, record, *model)
                                : touch_words(arguments, record, *model));
@@ -130,6 +134,7 @@ void add_touch(CLI::App& app, Console& console, std::function<int()>& action) {
           "Motion of the tip: glide (along the surface, 0.02 % of the diagonal per tick), scratch "
           "(0.1 %) or teleport (to another surface point every hundred ticks)"),
       "glide");
+  add_open_layers(subcommand, options->layers);
   subcommand.path("--ticks", "OUT.csv", options->ticks,
                   "Write all ticks here: tick,x,y,z,latency_us,query_us,width,side,status");
   subcommand.path("--trace", "OUT.csv", options->trace,

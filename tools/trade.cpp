@@ -9,6 +9,7 @@
 
 #include "planetree/model.h"
 #include "planetree/probe.h"
+#include "tools/cli/layer_option.h"
 #include "tools/cli/open_model.h"
 #include "tools/cli/output_file.h"
 #include "tools/cli/progress.h"
@@ -54,7 +55,8 @@ class Trade {
     if (!arguments_.html.empty()) {
       if (const int status = open_page(); status != kDone) return status;
     }
-    auto model = open_model(arguments_.file, trade_open_options(arguments_.memory_bytes), console_);
+    auto model = open_model(
+        arguments_.file, trade_open_options(arguments_.memory_bytes, arguments_.layers), console_);
     if (!model) return fail(model.error());
     if (const int status = measure_all(*model); status != kDone) return status;
     progress_.finish();
@@ -97,6 +99,9 @@ class Trade {
     const ModelInfo& info = model.info();
     record_.file = arguments_.file.string();
     record_.triangles = info.triangles;
+    record_.file_layers = info.layers;
+    record_.layers = model.stats().layers;
+    record_.parts = parts_told(model);
     record_.diagonal = core_diagonal(info);
     record_.median_edge = *edge;
     record_.whole_bytes = model.stats().table_bytes + std::uint64_t{info.pages} * info.page_bytes;
@@ -182,6 +187,7 @@ void add_trade(CLI::App& app, Console& console, std::function<int()>& action) {
   subcommand.default_text(subcommand.bytes("--memory", options->memory_bytes,
                                            "Maximum memory of queries that wait for pages"),
                           "256M");
+  add_open_layers(subcommand, options->layers);
   const auto html = subcommand.path(
       "--html", "OUT.html", options->html,
       "Also write the report as one HTML file with plots, which needs no network; - is standard "

@@ -10,32 +10,12 @@
 #include "query/answer/model_geometry.h"
 #include "tools/cli/file_text.h"
 #include "tools/cli/size_text.h"
+#include "tools/report/layer_report.h"
 
 namespace planetree::tools {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-struct Sections {
-  std::uint64_t headers = 0;
-  std::uint64_t page_table = 0;
-  std::uint64_t distance_pages = 0;
-  std::uint64_t cap_pages = 0;
-  std::uint64_t field_pages = 0;
-  std::uint64_t mask_pages = 0;
-};
-
-Sections sections_of(const FileParts& parts) {
-  Sections sections;
-  sections.headers = 2 * storage::kHeaderBytes;
-  sections.page_table = parts.entries().size_bytes();
-  for (std::uint32_t page = 0; page < parts.page_count(); ++page)
-    (page < parts.first_cap_page()     ? sections.distance_pages
-     : page < parts.first_field_page() ? sections.cap_pages
-     : page < parts.first_mask_page()  ? sections.field_pages
-                                       : sections.mask_pages) += parts.entries()[page].stored_bytes;
-  return sections;
-}
 
 double share(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
@@ -131,6 +111,7 @@ std::string point_text(const double (&values)[3]) {
 // The rule for sides, in one word.
 std::string_view sign_rule(const storage::ModelRecord& model) {
   if (model.side_rule == storage::SideRule::kSurface) return "surface";
+  if (!model.has_side_layer()) return "none";
   return model.unbalanced_edge_count == 0 ? "crossings" : "winding";
 }
 
@@ -174,6 +155,7 @@ double cap_area(const storage::ModelRecord& model) {
 std::string_view rule_text(const storage::ModelRecord& model) {
   if (model.side_rule == storage::SideRule::kSurface)
     return "sides by the nearest face, edge or vertex";
+  if (!model.has_side_layer()) return "sides unknown without the side layer";
   return model.unbalanced_edge_count == 0 ? "sides by crossings, exactly"
                                           : "sides by winding number";
 }
@@ -183,10 +165,11 @@ std::string surface_text(const storage::ModelRecord& model) {
   if (model.unbalanced_edge_count == 0)
     return fmt::format("  surface     watertight; {}{}\n", rule_text(model), why);
   std::string text = fmt::format(
-      "  surface     not watertight; {}{}: {} unbalanced edges, openness {:.3g}, closed by {} caps "
-      "of area {:.6g}\n",
+      "  surface     not watertight; {}{}: {} unbalanced edges, openness {:.3g}{}\n",
       rule_text(model), why, grouped_count(model.unbalanced_edge_count), model.openness,
-      grouped_count(model.cap_count), cap_area(model));
+      model.cap_count == 0 ? ""
+                           : fmt::format(", closed by {} caps of area {:.6g}",
+                                         grouped_count(model.cap_count), cap_area(model)));
   for (const storage::UnbalancedEdge& edge : listed_unbalanced_edges(model))
     text += fmt::format("              {} to {} in triangle {}: {} faces that way, {} the other\n",
                         point_text(edge.from), point_text(edge.to), edge.triangle, edge.along,
@@ -258,7 +241,8 @@ Json summary_json(const FileParts& parts, const FileSurvey& survey) {
                {"mask", mask_row_json(mask_sum(survey))},
                {"special_configurations", mask_sum(survey).special},
                {"lists_of_blocks", survey.lists},
-               {"bytes", bytes_json(parts, survey)}};
+               {"bytes", bytes_json(parts, survey)},
+               {"layers", layers_json(parts)}};
   if (model.first_skipped != storage::kNoTriangle) json["first_skipped"] = model.first_skipped;
   return json;
 }
@@ -299,6 +283,7 @@ std::string summary_text(const std::string& name, const FileParts& parts,
       short_bytes(sections.distance_pages),
       model.cap_count > 0 ? fmt::format("cap pages {}, ", short_bytes(sections.cap_pages)) : "",
       short_bytes(sections.field_pages), short_bytes(sections.mask_pages));
+  text += layers_line(parts);
   text += fmt::format("  pages       {}, {} each in memory; {}\n", grouped_count(header.page_count),
                       short_bytes(header.page_bytes), raw_text(survey));
   text += fmt::format("  content id  {}\n", content_id_text(header.content_id));

@@ -39,10 +39,10 @@ Vec3 velocity_at(std::span<const Vec3> path, std::size_t tick, nanoseconds perio
 }
 
 void run_ticks(Probe& probe, std::span<const Vec3> path, nanoseconds start, nanoseconds period,
-               TouchRecord& record) noexcept {
+               const QueryOptions& options, TouchRecord& record) noexcept {
   record.rights = become_real_time();
   // One query before the ticks, so that the faults of first accesses are not counted.
-  probe.closest_point(path.front(), {.wait = Wait::kNever});
+  probe.closest_point(path.front(), options);
   sleep_until(now());
   const ThreadUsage before = thread_usage();
   for (std::size_t i = 0; i < path.size(); ++i) {
@@ -50,7 +50,7 @@ void run_ticks(Probe& probe, std::span<const Vec3> path, nanoseconds start, nano
     sleep_until(due);
     const nanoseconds began = now();
     probe.motion(path[i], velocity_at(path, i, period));
-    const ClosestPoint answer = probe.closest_point(path[i], {.wait = Wait::kNever});
+    const ClosestPoint answer = probe.closest_point(path[i], options);
     const nanoseconds ended = now();
     record.ticks[i] = {in_32_bits(ended - due), in_32_bits(ended - began),
                        static_cast<float>(answer.upper - answer.lower), answer.status, answer.side};
@@ -73,12 +73,14 @@ void run_idle_thread(nanoseconds start, nanoseconds period,
 
 }  // namespace
 
-TouchRecord run_touch_session(Probe& probe, std::span<const Vec3> path, nanoseconds period) {
+TouchRecord run_touch_session(Probe& probe, std::span<const Vec3> path, nanoseconds period,
+                              std::uint32_t parts) {
+  const QueryOptions options{.parts = parts, .wait = Wait::kNever};
   TouchRecord record;
   record.ticks.resize(path.size());
   record.floor_ns.resize(path.size());
   const nanoseconds start = now() + std::chrono::milliseconds(20);
-  std::thread querying([&] { run_ticks(probe, path, start, period, record); });
+  std::thread querying([&] { run_ticks(probe, path, start, period, options, record); });
   std::thread idle([&] { run_idle_thread(start + period / 2, period, record.floor_ns); });
   querying.join();
   idle.join();

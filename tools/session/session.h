@@ -28,9 +28,9 @@ struct TouchRecord {
   ThreadUsage usage;                    ///< of the querying thread during its ticks
 };
 
-/// Runs a session of path.size() ticks. An idle thread is due half a tick later on the same
-/// processor. It does nothing, so that its lateness is that of the machine.
+/// Runs a session of path.size() ticks. Each query has these `parts`. An idle thread is due half a
+/// tick later on the same processor. It does nothing, so that its lateness is that of the machine.
 TouchRecord run_touch_session(Probe& probe, std::span<const Vec3> path,
-                              std::chrono::nanoseconds period);
+                              std::chrono::nanoseconds period, std::uint32_t parts);
 
 }  // namespace planetree::tools

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "planetree/stats.h"
+#include "tools/cli/layer_option.h"
 #include "tools/cli/size_text.h"
 #include "tools/cli/subcommand.h"
 #include "tools/session/sorted.h"
@@ -71,6 +72,7 @@ nlohmann::ordered_json report_of(const TouchArguments& arguments, const TouchRec
   return {{"file", arguments.file.string()},
           {"path", name_of(arguments.motion)},
           {"rate_hz", arguments.rate_hz},
+          {"layers", layer_words(stats.layers)},
           {"ticks", record.ticks.size()},
           {"late", late},
           {"degraded", std::count_if(record.ticks.begin(), record.ticks.end(), is_degraded)},

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 
+#include "planetree/layers.h"
 #include "tools/session/session_path.h"
 
 namespace planetree::tools {
@@ -13,6 +14,7 @@ struct TouchArguments {
   std::uint64_t seconds = 10;
   std::uint64_t rate_hz = 1000;
   std::uint64_t memory_bytes = std::uint64_t{256} << 20;
+  std::uint32_t layers = kAllLayers;  ///< layers to open
   TouchMotion motion = TouchMotion::kGlide;
   std::filesystem::path ticks;  ///< file for all ticks; empty: none
   std::filesystem::path trace;  ///< file for all page accesses; empty: none

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "tools/cli/layer_option.h"
 #include "tools/cli/shell_word.h"
 
 namespace planetree::tools {
@@ -13,6 +14,7 @@ std::string trade_command(const TradeArguments& arguments) {
   if (arguments.count != defaults.count) text += fmt::format(" --count {}", arguments.count);
   if (arguments.memory_bytes != defaults.memory_bytes)
     text += fmt::format(" --memory {}", arguments.memory_bytes);
+  if (arguments.layers != defaults.layers) text += " --layers " + layers_text(arguments.layers);
   return text + " --html " + shell_word(arguments.html.string()) + " --force";
 }
 

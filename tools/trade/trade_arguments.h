@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "planetree/layers.h"
+
 namespace planetree::tools {
 
 /// Arguments of `planetree trade`.
@@ -12,8 +14,9 @@ struct TradeArguments {
   std::filesystem::path points;  ///< file of query points; empty: they are made
   std::uint64_t count = 2000;    ///< query points of each workload
   std::uint64_t memory_bytes = std::uint64_t{256} << 20;
-  std::filesystem::path html;  ///< page to write; empty: none; "-" is standard output
-  bool force = false;          ///< whether an existing page may be replaced
+  std::uint32_t layers = kAllLayers;  ///< layers to open
+  std::filesystem::path html;         ///< page to write; empty: none; "-" is standard output
+  bool force = false;                 ///< whether an existing page may be replaced
   bool json = false;
   bool quiet = false;
 };

@@ -14,8 +14,9 @@ constexpr int kRounds = 3;
 constexpr std::chrono::milliseconds kPace(1);
 constexpr std::size_t kMaxPaced = 1000;
 
-QueryOptions options_of(const TradeSetting& setting) {
+QueryOptions options_of(const TradeSetting& setting, std::uint32_t parts) {
   QueryOptions options;
+  options.parts = parts;
   options.max_error = setting.max_error;
   options.max_work = setting.max_work;
   options.wait = setting.wait;
@@ -47,10 +48,11 @@ double answer_paced(Probe& probe, std::span<const Vec3> points, const QueryOptio
 
 }  // namespace
 
-OpenOptions trade_open_options(std::uint64_t memory_bytes) {
+OpenOptions trade_open_options(std::uint64_t memory_bytes, std::uint32_t layers) {
   OpenOptions options;
   options.memory_budget_bytes = memory_bytes;
   options.max_probes = 1;
+  options.layers = layers;
   return options;
 }
 
@@ -58,14 +60,14 @@ void TradeMeasurement::add(TradeWorkload workload, std::vector<Vec3> points, Pro
   record_.workloads.push_back(workload);
   Points& added = workloads_.emplace_back();
   added.points = std::move(points);
-  answer_all(probe, added.points, {}, added.exact);
+  answer_all(probe, added.points, {.parts = record_.parts}, added.exact);
 }
 
 Result<void> TradeMeasurement::measure(const TradeSetting& setting) {
   TradeRow row{setting, {}};
   const bool paced = setting.wait == Wait::kNever;
   for (const Points& workload : workloads_) {
-    const auto model = Model::open(file_, trade_open_options(setting.memory_bytes));
+    const auto model = Model::open(file_, trade_open_options(setting.memory_bytes, record_.layers));
     if (!model && paced && model.error().code == ErrorCode::kNoMemory) {
       record_.too_small.push_back(setting.memory_bytes);
       return {};
@@ -79,9 +81,9 @@ Result<void> TradeMeasurement::measure(const TradeSetting& setting) {
     std::vector<ClosestPoint> answers;
     double seconds = 0;
     if (paced)
-      seconds = answer_paced(*probe, points, options_of(setting), answers);
+      seconds = answer_paced(*probe, points, options_of(setting, record_.parts), answers);
     else
-      answer_all(*probe, points, options_of(setting), answers);
+      answer_all(*probe, points, options_of(setting, record_.parts), answers);
     row.results.push_back(compare_answers(answers, std::span(workload.exact).first(points.size())));
     row.results.back().seconds = seconds;
     row.results.back().pages = model->stats().pages_read;
@@ -101,7 +103,7 @@ void TradeMeasurement::measure_times(const Model& model, std::size_t workload) {
   std::vector<ClosestPoint> answers;
   for (const TradeRow& row : record_.rows)
     if (row.setting.wait == Wait::kForPages)
-      actions.emplace_back([&, options = options_of(row.setting)] {
+      actions.emplace_back([&, options = options_of(row.setting, record_.parts)] {
         if (auto probe = Probe::create(model)) answer_all(*probe, points, options, answers);
       });
   for (const auto& action : actions) action();

@@ -11,8 +11,8 @@
 
 namespace planetree::tools {
 
-/// Opens a model for one probe within a budget.
-OpenOptions trade_open_options(std::uint64_t memory_bytes);
+/// Opens layers of a model for one probe within a budget.
+OpenOptions trade_open_options(std::uint64_t memory_bytes, std::uint32_t layers);
 
 /// Answers the points of workloads with one setting after the other, and compares the answers with
 /// the exact ones.
@@ -22,7 +22,8 @@ class TradeMeasurement {
   TradeMeasurement(std::filesystem::path file, TradeRecord& record, std::function<void()> done)
       : file_(std::move(file)), record_(record), done_(std::move(done)) {}
 
-  /// Adds a workload to those measured. Answers its points exactly with the probe.
+  /// Adds a workload to those measured. Answers its points exactly with the probe. The layers and
+  /// the parts of the record are known.
   void add(TradeWorkload workload, std::vector<Vec3> points, Probe& probe);
 
   /// Adds a setting's row to the record: all but the time of settings that wait for pages. Opens

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "planetree/layers.h"
+
 #include "tools/trade/trade_choice.h"
 #include "tools/trade/trade_points.h"
 
@@ -13,9 +15,12 @@ namespace planetree::tools {
 struct TradeRecord {
   std::string file;
   std::uint64_t triangles = 0;
-  double diagonal = 0;            ///< of the core, model units
-  double median_edge = 0;         ///< model units; 0 if it is not known
-  std::uint64_t whole_bytes = 0;  ///< memory that holds the whole model
+  double diagonal = 0;                     ///< of the core, model units
+  double median_edge = 0;                  ///< model units; 0 if it is not known
+  std::uint64_t whole_bytes = 0;           ///< memory that holds the whole model
+  std::uint32_t file_layers = kAllLayers;  ///< layers of the file
+  std::uint32_t layers = kAllLayers;       ///< layers that are open
+  std::uint32_t parts = kAllParts;         ///< parts that they tell
   std::vector<TradeWorkload> workloads;
   std::vector<TradeRow> rows;            ///< exact answers first
   std::vector<std::uint64_t> too_small;  ///< budgets that the model does not fit, bytes

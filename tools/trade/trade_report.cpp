@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "tools/cli/layer_option.h"
 #include "tools/cli/size_text.h"
 #include "tools/cli/subcommand.h"
 
@@ -62,6 +63,7 @@ Json json_of(const TradeRow& row, std::size_t workload, const TradeRecord& recor
   const double points = static_cast<double>(result.points);
   return {{"workload", name_of(record.workloads[workload])},
           {"options", json_of(row.setting)},
+          {"layers", layer_words(record.layers)},
           {"points", result.points},
           {"queries_per_second", per_second(result)},
           {"ratio_to_exact", result.ratio_to_exact},
@@ -83,10 +85,11 @@ Json json_of(const TradeRow& row, std::size_t workload, const TradeRecord& recor
 
 std::string trade_words(const TradeRecord& record) {
   std::string text = fmt::format(
-      "{}: {} triangles, diagonal {:.6g}, median edge {:.3g}\n"
+      "{}: {} triangles, diagonal {:.6g}, median edge {:.3g}{}\n"
       "Errors in the tables are shares of the diagonal. Rows marked - are no better in "
       "time or promised error than another.\n",
-      record.file, grouped_count(record.triangles), record.diagonal, record.median_edge);
+      record.file, grouped_count(record.triangles), record.diagonal, record.median_edge,
+      record.layers == record.file_layers ? "" : ", layers " + layers_text(record.layers));
   for (std::size_t i = 0; i < record.workloads.size(); ++i) text += table(record, i);
   for (const std::uint64_t bytes : record.too_small)
     text +=
@@ -99,8 +102,10 @@ std::string trade_words(const TradeRecord& record) {
     if (row) last = row;
   }
   if (last)
-    text += fmt::format("\nplanetree query {} POINTS{}{}\n", record.file,
-                        last->setting.is_exact() ? "" : " ", last->setting.options());
+    text += fmt::format(
+        "\nplanetree query {} POINTS{}{}{}\n", record.file,
+        record.layers == record.file_layers ? "" : " --layers " + layers_text(record.layers),
+        last->setting.is_exact() ? "" : " ", last->setting.options());
   return text;
 }
 

@@ -1,0 +1,71 @@
+#include "tools/cli/layer_option.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+#include <utility>
+
+#include "octree/builder/mesh/stream/mesh_text.h"
+
+namespace planetree::tools {
+namespace {
+
+constexpr std::array<std::pair<const char*, std::uint32_t>, 3> kWords = {
+    {{"distance", kDistanceLayer}, {"side", kSideLayer}, {"field", kFieldLayer}}};
+
+std::string complaint_of(const std::string& text) {
+  if (layers_of(text) != 0) return {};
+  return fmt::format(
+      "'{}' is not a list of layers; give distance, side, field or several of them, with commas",
+      octree::printable(text));
+}
+
+}  // namespace
+
+std::uint32_t layers_of(const std::string& text) {
+  if (text.empty() || text.back() == ',') return 0;
+  std::uint32_t layers = kDistanceLayer;
+  std::istringstream words(text);
+  for (std::string word; std::getline(words, word, ',');) {
+    const auto* const found = std::find_if(
+        kWords.begin(), kWords.end(), [&word](const auto& known) { return word == known.first; });
+    if (found == kWords.end()) return 0;
+    layers |= found->second;
+  }
+  return layers;
+}
+
+std::vector<std::string> layer_words(std::uint32_t layers) {
+  std::vector<std::string> words;
+  for (const auto& [word, layer] : kWords)
+    if ((layers & layer) != 0) words.emplace_back(word);
+  return words;
+}
+
+std::string layers_text(std::uint32_t layers) {
+  return fmt::format("{}", fmt::join(layer_words(layers), ","));
+}
+
+void add_layers(SubcommandOptions& subcommand, std::uint32_t& layers, const std::string& help) {
+  const auto take = [&layers](const std::string& text) { layers = layers_of(text); };
+  SubcommandOptions::default_text(subcommand.text("--layers", "LAYERS", complaint_of, take, help),
+                                  layers_text(kAllLayers));
+}
+
+void add_open_layers(SubcommandOptions& subcommand, std::uint32_t& layers) {
+  add_layers(subcommand, layers,
+             "Open only these layers of the file, to save memory and reads: distance (always "
+             "opened), side (sides of solids), field (answers within an error, and degraded ones), "
+             "with commas between them. Without side, answers have the distance alone, unless "
+             "the surface is a sheet");
+}
+
+std::uint32_t parts_told(const Model& model, SideRule rule) {
+  const bool is_sheet = rule == SideRule::kSurface ||
+                        (rule == SideRule::kOfFile && model.info().side_rule == SideRule::kSurface);
+  return is_sheet || (model.stats().layers & kSideLayer) != 0 ? kAllParts : kDistance;
+}
+
+}  // namespace planetree::tools

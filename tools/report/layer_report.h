@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "tools/check/file_parts.h"
+
+/// What the layers of a file take, and what leaving them out saves.
+namespace planetree::tools {
+
+/// Stored bytes of each part of a file.
+struct Sections {
+  std::uint64_t headers = 0;
+  std::uint64_t page_table = 0;
+  std::uint64_t distance_pages = 0;
+  std::uint64_t cap_pages = 0;
+  std::uint64_t field_pages = 0;
+  std::uint64_t mask_pages = 0;
+
+  std::uint64_t side_pages() const { return cap_pages + mask_pages; }
+};
+[[nodiscard]] Sections sections_of(const FileParts& parts);
+
+/// Pages and stored bytes of each layer, without headers and page table. Also what leaving the
+/// layer out at open saves: of the minimum budget with one probe, and of the frames that hold all
+/// pages. A layer that the file does not have is null in JSON. The savings of a file that cannot be
+/// opened are null.
+[[nodiscard]] nlohmann::ordered_json layers_json(const FileParts& parts);
+[[nodiscard]] std::string layers_line(const FileParts& parts);
+
+}  // namespace planetree::tools
