@@ -44,7 +44,7 @@ class BestTriangle {
   /// than the best may be truly nearer, if its value is less certain.
   double lower() const { return lower_; }
 
-  /// Returns a distance for tighten() where the surface is at most `within` away: the value of a
+  /// Returns a distance for limit() where the surface is at most `within` away: the value of a
   /// triangle may exceed its distance.
   static double reach_within(double within, double span) {
     return within + kValueRounding * (within + span) + kCoherenceSlack;
@@ -56,6 +56,14 @@ class BestTriangle {
     if (!(distance < reach_)) return;
     reach_ = distance;
     bounded_ = true;
+    refresh();
+  }
+
+  /// Lowers reach() to `distance`, which some surface is within. An allowed error is left to the
+  /// triangles, so that an answer has one.
+  void limit(double distance) {
+    if (!(distance < reach_)) return;
+    reach_ = distance;
     refresh();
   }
 

@@ -111,17 +111,14 @@ static NearestAnswer nearest_in_tree(const TreeInfo& tree, const Point& query,
 [[gnu::noinline]] static NearestAnswer nearest_within_error(
     const TreeInfo& tree, const Point& query, const NearestLimits& limits, const PageReader& pages,
     TraversalStats& work, CoherenceCache* coherence_cache) {
-  NearestLimits bounded = limits;
-  if (limits.prefers_exact) bounded.max_error = 0;
-  const bool is_exact = limits.prefers_exact && coherence_cache;
-  if (is_exact && !limits.may_be_answered_by(coherence_cache->field()))
-    return nearest_in_tree(tree, query, bounded, pages, work, coherence_cache);
   CoarseField::Estimate estimate = limits.field->estimate(query);
   NearestAnswer answer;
   if (limits.may_be_answered_by(estimate)) {
     if (answer_by_field(query, limits, answer)) return answer;
     estimate.width = answer.upper - answer.lower;
   }
+  NearestLimits bounded = limits;
+  if (limits.prefers_exact) bounded.max_error = 0;
   bounded.within = estimate.upper;
   answer = nearest_in_tree(tree, query, bounded, pages, work, coherence_cache);
   if (coherence_cache && answer.triangle != kNoTriangle) {

@@ -55,7 +55,7 @@ class NearestTraversal {
   NearestTraversal& operator=(const NearestTraversal&) = delete;
 
   void run_from_root(double within) {
-    best_.tighten(BestTriangle::reach_within(within, tree_.span(query_)));
+    best_.limit(BestTriangle::reach_within(within, tree_.span(query_)));
     search(0, tree_.root_link);
     finish();
   }

@@ -129,7 +129,10 @@ class ClosestPointQuery {
     // The direction to the field's point serves as a normal where that is far away.
     if ((computed_parts(options_.parts) & kNormal) != 0)
       limits.max_field_share = kMaxShareWithNormal;
-    limits.prefers_exact = limits.max_error > 0 && is_exact_cheaper(limits);
+    if (limits.max_error > 0 && is_exact_cheaper(limits)) {
+      limits.prefers_exact = true;
+      if (!limits.may_be_answered_by(coherence_.nearest.field())) limits.max_error = 0;
+    }
     return search_nearest(limits);
   }
 
