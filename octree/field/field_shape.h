@@ -29,7 +29,7 @@ struct FieldShape {
   std::array<std::uint32_t, 3> size{};
 
   /// Maximum number of points.
-  static constexpr std::uint64_t kMaxPoints = std::uint64_t{1} << 20;  // as storage has it
+  static constexpr std::uint64_t kMaxPoints = std::uint64_t{1} << 20;
   /// Least number of triangles of a model that has a field. Fewer are found as fast.
   static constexpr std::uint64_t kMinTriangles = 1024;
 

@@ -9,6 +9,11 @@
 
 namespace planetree::query {
 
+// The file's rules for fields are those of the field.
+static_assert(storage::kMaxFieldPoints == octree::FieldShape::kMaxPoints);
+static_assert(storage::kMinPageBytes / storage::kFieldPointShare ==
+              octree::points_per_field_page(storage::kMinPageBytes));
+
 octree::BlockShape block_shape(const storage::ModelRecord& model) noexcept {
   octree::BlockShape shape;
   shape.float64 = model.vertex_kind == storage::VertexKind::kFloat64;

@@ -180,6 +180,10 @@ constexpr NastyFamily kFamilies[] = {
     {"many at a corner", many_at_a_corner},
 };
 
+}  // namespace
+
+std::span<const NastyFamily> nasty_families() { return kFamilies; }
+
 double one_ulp_off(Random& random, double value) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   switch (random.below(3)) {
@@ -191,10 +195,6 @@ double one_ulp_off(Random& random, double value) {
       return value;
   }
 }
-
-}  // namespace
-
-std::span<const NastyFamily> nasty_families() { return kFamilies; }
 
 Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }

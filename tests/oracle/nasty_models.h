@@ -22,6 +22,9 @@ std::span<const NastyFamily> nasty_families();
 /// ulp beside a corner, or at the middle of an edge.
 Vec3 nasty_query(Random& random, std::span<const Corners> triangles, double size);
 
+/// The value, or the next double below or above it.
+double one_ulp_off(Random& random, double value);
+
 Vec3 operator+(const Vec3& a, const Vec3& b);
 Vec3 operator-(const Vec3& a, const Vec3& b);
 Vec3 operator*(const Vec3& a, double factor);

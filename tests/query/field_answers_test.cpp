@@ -8,7 +8,6 @@
 #include <limits>
 #include <vector>
 
-#include "planetree/build.h"
 #include "planetree/planetree.h"
 #include "tests/octree/support/sample_tree.h"
 #include "tests/query/sample_model.h"
@@ -29,18 +28,7 @@ class FieldAnswers : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = std::make_unique<storage::TemporaryDirectory>();
-    const octree::Soup soup = octree::sphere(6);
-    std::vector<Vec3> vertices;
-    std::vector<TriangleVertices> triangles;
-    for (const auto& corners : soup) {
-      const auto first = static_cast<std::uint32_t>(vertices.size());
-      vertices.insert(vertices.end(), corners.begin(), corners.end());
-      triangles.push_back({first, first + 1, first + 2});
-    }
-    BuildOptions options;
-    options.page_bytes = 4096;
-    const auto report = build(BuildInput(vertices, triangles), *folder_ / "model.ptree", options);
-    ASSERT_TRUE(report) << report.error().text;
+    build_soup(octree::sphere(6), *folder_ / "model.ptree");
   }
   static void TearDownTestSuite() { folder_.reset(); }
 

@@ -31,20 +31,6 @@ constexpr std::array<std::uint32_t, 5> kChoices = {0, kDistanceLayer, kDistanceL
 
 FetchWorker::Seconds still_time() { return FetchWorker::Seconds(1); }
 
-void build_soup(const octree::Soup& soup, const fs::path& path) {
-  std::vector<Vec3> vertices;
-  std::vector<TriangleVertices> triangles;
-  for (const auto& corners : soup) {
-    const auto first = static_cast<std::uint32_t>(vertices.size());
-    vertices.insert(vertices.end(), corners.begin(), corners.end());
-    triangles.push_back({first, first + 1, first + 2});
-  }
-  BuildOptions options;
-  options.page_bytes = 4096;
-  const auto report = build(BuildInput(vertices, triangles), path, options);
-  if (!report) throw std::runtime_error(report.error().text);
-}
-
 // A sphere, one with a hole, and a sheet.
 class OpenLayersOfModels : public testing::Test {
  protected:

@@ -5,10 +5,12 @@
 #include <cstdlib>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "octree/builder/cap_tree.h"
 #include "octree/builder/mask/mask_encoder.h"
 #include "octree/builder/surface/edge_balance.h"
+#include "planetree/build.h"
 #include "storage/file/page_writer.h"
 
 namespace planetree::query {
@@ -197,6 +199,20 @@ bool SampleModel::interval_holds(const ClosestPoint& answer, const Vec3& query) 
   const Truth known = truth(query);
   return answer.lower < answer.upper && answer.lower <= known.distance + known.error &&
          answer.upper >= known.distance - known.error;
+}
+
+void build_soup(const Soup& soup, const std::filesystem::path& path) {
+  std::vector<Vec3> vertices;
+  std::vector<TriangleVertices> triangles;
+  for (const auto& corners : soup) {
+    const auto first = static_cast<std::uint32_t>(vertices.size());
+    vertices.insert(vertices.end(), corners.begin(), corners.end());
+    triangles.push_back({first, first + 1, first + 2});
+  }
+  BuildOptions options;
+  options.page_bytes = 4096;
+  const auto report = build(BuildInput(vertices, triangles), path, options);
+  if (!report) give_up(report.error());
 }
 
 Probe make_probe(const Model& model) {

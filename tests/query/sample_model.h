@@ -55,6 +55,9 @@ class SampleModel {
   octree::SampleTree sample_;
 };
 
+/// Builds the .ptree file of a soup by the public interface, with pages of 4096 bytes.
+void build_soup(const Soup& soup, const std::filesystem::path& path);
+
 Probe make_probe(const Model& model);
 
 std::vector<Vec3> random_queries(std::size_t count, double low, double high,

@@ -2,27 +2,10 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "tests/oracle/nasty_models.h"
 
 namespace planetree::oracle {
-namespace {
-
-double beside(Random& random, double value) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  switch (random.below(4)) {
-    case 0:
-      return std::nextafter(value, kInfinity);
-    case 1:
-      return std::nextafter(value, -kInfinity);
-    default:
-      return value;
-  }
-}
-
-}  // namespace
-
 FieldPlaces::FieldPlaces(const FieldedModel& model, const BuiltModel& built)
     : model_(model), built_(built), last_(model.triangles[0][0]) {}
 
@@ -37,7 +20,7 @@ Vec3 FieldPlaces::grid_point(Random& random, bool at_face) const {
         at_face ? random.between(-0.5, size - 0.5) : static_cast<double>(random.below(size));
     if (at_face && axis == face) steps = random.one_in(2) ? 0 : size - 1;
     const double place = record.field_lower[axis] + steps * record.field_step;
-    at[axis] = std::ldexp(beside(random, place), -record.scale_exponent);
+    at[axis] = std::ldexp(one_ulp_off(random, place), -record.scale_exponent);
   }
   return {at[0], at[1], at[2]};
 }
