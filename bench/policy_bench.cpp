@@ -25,10 +25,10 @@ constexpr Workload kQueried[] = {Workload::kUniform, Workload::kNear, Workload::
 
 // Returns the pages read per query in the second half; the first half fills the frames.
 Result<double> reads_per_query(const Arguments& arguments, const std::vector<Vec3>& points,
-                               std::uint64_t budget_bytes, cache::Policy policy) {
+                               std::uint64_t budget_bytes, EvictionPolicy policy) {
   const auto model = query::ModelState::open_model(
-      arguments.model, {.memory_budget_bytes = budget_bytes, .max_probes = 1},
-      {.starts_fetching = false, .policy = policy});
+      arguments.model, {.memory_budget_bytes = budget_bytes, .max_probes = 1, .policy = policy},
+      {.starts_fetching = false});
   if (!model) return model.error();
   auto probe = Probe::create(*model);
   if (!probe) return probe.error();
@@ -60,8 +60,8 @@ int run(const Arguments& arguments) {
     for (const double percent : arguments.percents) {
       const auto budget = static_cast<std::uint64_t>(
           percent / 100 * static_cast<double>(model->stats().arena_bytes));
-      const auto clock = reads_per_query(arguments, points, budget, cache::Policy::kClock);
-      const auto lru = reads_per_query(arguments, points, budget, cache::Policy::kLru);
+      const auto clock = reads_per_query(arguments, points, budget, EvictionPolicy::kClock);
+      const auto lru = reads_per_query(arguments, points, budget, EvictionPolicy::kLru);
       if (!clock || !lru) return fail((clock ? lru : clock).error().text);
       fmt::print("{:<12}{:>10}{:>10.4f}{:>10.4f}\n", name_of(workload), percent, *clock, *lru);
     }

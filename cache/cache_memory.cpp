@@ -75,14 +75,7 @@ CacheTables cut_tables(const CacheLimits& limits, std::uint64_t frame_count,
   CacheTables tables;
   tables.map = layout.cut<PageMap::Cell>(page_count);
   tables.quarantine_bits = layout.cut<std::uint64_t>((page_count + 63) / 64);
-  tables.policy.states = layout.cut<FrameStates::State>(frame_count);
-  if (limits.policy == Policy::kLru) {
-    tables.policy.now = layout.cut<LruPolicy::Tick>(1);
-    tables.policy.uses = layout.cut<LruPolicy::Tick>(frame_count);
-    tables.policy.entries = layout.cut<LruPolicy::Entry>(frame_count);
-  } else {
-    tables.policy.scores = layout.cut<ClockPolicy::Score>(frame_count);
-  }
+  tables.policy = cut_policy_tables(limits.policy, frame_count, page_count, layout);
   tables.pages = layout.cut<std::uint32_t>(frame_count);
   tables.free_frames = layout.cut<std::uint32_t>(frame_count);
   tables.slots = layout.cut<ReaderSlot>(slot_count);

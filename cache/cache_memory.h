@@ -3,12 +3,13 @@
 #include <cstdint>
 #include <span>
 
-#include "cache/eviction_policy.h"
 #include "cache/in_flight_reads.h"
 #include "cache/limbo.h"
+#include "cache/policy/policy_tables.h"
 #include "cache/prefaulted_memory.h"
 #include "cache/protocol.h"
 #include "planetree/error.h"
+#include "planetree/eviction_policy.h"
 
 namespace planetree::cache {
 
@@ -19,7 +20,7 @@ struct CacheLimits {
   std::uint32_t frame_bytes;     ///< size of a decoded page; 1 ... kMaxFrameBytes
   std::uint32_t max_readers;     ///< maximum number of simultaneous readers; 1 ... kMaxReaders
   std::uint64_t reserved_bytes;  ///< part of the budget that the caller needs for itself
-  Policy policy = Policy::kClock;
+  EvictionPolicy policy = EvictionPolicy::kClock;
   std::uint32_t own_readers = 0;  ///< of max_readers: those that threads of the caller claim
   /// Number of pages that are never fetched, below page_count. No frame is kept for them.
   std::uint32_t unused_pages = 0;

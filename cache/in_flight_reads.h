@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "cache/frame_pool.h"
+#include "cache/policy/frame_states.h"
 
 namespace planetree::cache {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "cache/frame_pool.h"
+#include "cache/policy/frame_states.h"
 #include "cache/protocol.h"
 
 namespace planetree::cache {

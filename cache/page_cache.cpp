@@ -42,7 +42,7 @@ PageCache::PageCache(const CacheLimits& limits, FillPage fill, void* context,
       frames_(std::move(frames)),
       tables_(make_tables(limits, frames_.frame_count(), table_memory_)),
       map_(tables_.map),
-      policy_(limits.policy, tables_.policy),
+      evictor_(limits.policy, tables_.policy),
       limbo_(tables_.slots, tables_.entries, tables_.stamps),
       in_flight_reads_(tables_.in_flight_reads),
       free_count_(frames_.frame_count()) {
@@ -77,7 +77,7 @@ Result<void> PageCache::pin(std::uint32_t page) noexcept {
 
 Result<void> PageCache::pin_resident(std::uint32_t page) noexcept {
   const std::uint32_t frame = map_.frame_of(page);
-  if (policy_.state(frame) == EvictionPolicy::State::kPinned) return {};
+  if (evictor_.state(frame) == Evictor::State::kPinned) return {};
   const std::uint32_t frame_count = frames_.frame_count();
   const std::uint32_t entries = limits_.max_readers + 1;
   // page_fetch.cpp explains why max_readers + 1 frames must stay unpinned.
@@ -87,7 +87,7 @@ Result<void> PageCache::pin_resident(std::uint32_t page) noexcept {
                       "raise the memory budget",
                       pinned_count_, frame_count);
   }
-  policy_.pin(frame);
+  evictor_.pin(frame);
   ++pinned_count_;
   return {};
 }
@@ -128,7 +128,7 @@ CacheStats PageCache::stats() const noexcept {
 
 Reader::Reader(PageCache& cache, ReaderSlot& slot, std::uint32_t index) noexcept
     : map_(cache.map_),
-      reference_bits_(cache.policy_.reference_bits()),
+      reference_bits_(cache.evictor_.reference_bits()),
       frames_(cache.frames_.frame(0)),
       stride_bytes_(cache.frames_.stride_bytes()),
       slot_(&slot),

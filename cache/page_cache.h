@@ -11,10 +11,10 @@
 #include <span>
 
 #include "cache/cache_memory.h"
-#include "cache/eviction_policy.h"
 #include "cache/frame_pool.h"
 #include "cache/in_flight_reads.h"
 #include "cache/limbo.h"
+#include "cache/policy/evictor.h"
 #include "cache/prefaulted_memory.h"
 #include "cache/protocol.h"
 #include "cache/reader.h"
@@ -170,7 +170,7 @@ class PageCache {
   std::mutex mutex_;
   std::array<std::condition_variable, kWakers> wakers_;
   std::condition_variable helpers_waker_;
-  EvictionPolicy policy_;
+  Evictor evictor_;
   Limbo limbo_;
   InFlightReads in_flight_reads_;
   std::uint32_t free_count_;

@@ -89,7 +89,7 @@ PageCache::Outcome PageCache::make_resident(Lock& lock, std::uint32_t fetcher, s
     limbo_.set_awaited(fetcher, false);
     // Another fetcher may have made the page resident in the meantime.
     if (const std::uint32_t frame = map_.frame_of(page); frame != kNoFrame) {
-      policy_.reference_bits().mark(frame);
+      evictor_.reference_bits().mark(frame);
       return Outcome::kResident;
     }
     if (quarantined(page)) return Outcome::kUnreadable;
@@ -131,10 +131,11 @@ PageCache::Outcome PageCache::read_page(Lock& lock, std::uint32_t fetcher, std::
     return Outcome::kWouldBlock;
   }
   tables_.pages[frame] = page;
-  policy_.install(frame, *filled == FillResult::kFilledUpper ? PageTier::kUpper : PageTier::kLower);
+  evictor_.install(frame, page,
+                   *filled == FillResult::kFilledUpper ? PageTier::kUpper : PageTier::kLower);
   map_.publish(page, frame);
   add_one(counts_.fills);
-  if (in_flight_reads_.serve(page, frame, wake_waiting) > 0) policy_.hold(frame);
+  if (in_flight_reads_.serve(page, frame, wake_waiting) > 0) evictor_.hold(frame);
   return Outcome::kResident;
 }
 
@@ -158,7 +159,7 @@ PageCache::Outcome PageCache::wait_for_page(Lock& lock, std::uint32_t fetcher, s
   in_flight_reads_.end(fetcher);
   switch (in_flight.stage) {
     case InFlightRead::Stage::kServed:
-      if (!in_flight_reads_.holds(in_flight.frame)) policy_.release(in_flight.frame);
+      if (!in_flight_reads_.holds(in_flight.frame)) evictor_.release(in_flight.frame);
       return Outcome::kResident;
     case InFlightRead::Stage::kFailed:
       return Outcome::kUnreadable;
@@ -209,9 +210,9 @@ std::uint32_t PageCache::try_to_take_frame(std::uint32_t fetcher) noexcept {
 }
 
 bool PageCache::evict_into_limbo(std::uint32_t fetcher) noexcept {
-  const std::uint32_t frame = policy_.choose_victim();
+  const std::uint32_t frame = evictor_.choose_victim();
   if (frame == kNoFrame) return false;
-  policy_.remove(frame);
+  evictor_.remove(frame);
   // The page must be withdrawn before the open sections are noted: E2, then E3.
   map_.withdraw(tables_.pages[frame]);
   limbo_.retire(fetcher, frame);

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "cache/eviction_policy.h"
+#include "cache/policy/reference_bits.h"
 #include "cache/protocol.h"
 
 namespace planetree::cache {

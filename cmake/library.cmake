@@ -8,6 +8,7 @@ set(planetree_headers
   build.h
   eigen.h
   error.h
+  eviction_policy.h
   export.h
   layers.h
   model.h
@@ -19,7 +20,7 @@ set(planetree_headers
 list(TRANSFORM planetree_headers PREPEND ${PROJECT_SOURCE_DIR}/include/planetree/)
 
 set(planetree_library_layers
-  error storage_system storage_file storage_spill cache
+  error storage_system storage_file storage_spill cache_policy cache
   geometry page field traversal nearest winding mask
   builder_job builder_mesh_stream builder_mesh builder_sort builder_surface builder_tree
   builder_mask builder_field builder

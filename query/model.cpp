@@ -78,6 +78,10 @@ Result<void> check_options(const OpenOptions& options) {
         check(std::max(options.page_trace_capacity, 1U), "accesses of a trace",
               OpenOptions::kMaxPageTraceCapacity)})
     if (!checked) return checked;
+  if (options.policy > EvictionPolicy::kTwoQ)
+    return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
+                      "the eviction policy %u does not exist; choose a value of EvictionPolicy",
+                      static_cast<unsigned>(options.policy));
   if ((options.layers & ~kAllLayers) == 0) return {};
   return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
                     "layers are 0x%x; combine kSideLayer and kFieldLayer", options.layers);
@@ -88,8 +92,7 @@ unsigned thread_probes(const OpenOptions& options) {
   return options.fetch_threads + (options.batch_threads > 1 ? options.batch_threads : 0);
 }
 
-Pager::Limits limits_of(const storage::FileHeader& header, const OpenOptions& options,
-                        const ModelSeams& seams) {
+Pager::Limits limits_of(const storage::FileHeader& header, const OpenOptions& options) {
   Pager::Limits limits;
   limits.budget_bytes = options.memory_budget_bytes;
   limits.opened = OpenLayers::of(header.model, options.layers);
@@ -103,7 +106,7 @@ Pager::Limits limits_of(const storage::FileHeader& header, const OpenOptions& op
   limits.locking = options.locking;
   limits.wait_limit = std::chrono::milliseconds(options.wait_limit_ms);
   limits.use_io_uring = options.use_io_uring;
-  limits.policy = seams.policy;
+  limits.policy = options.policy;
   limits.arena.readers = limits.readers();
   limits.arena.model_bytes = sizeof(ServingModel);
   limits.arena.probe_bytes = sizeof(ProbeState);
@@ -198,7 +201,7 @@ Result<std::unique_ptr<ModelState>> ModelState::open(const std::filesystem::path
   if (const auto checked = check_options(options); !checked) return checked.error();
   auto file = storage::PageFile::open(path, seams.calls);
   if (!file) return file.error();
-  const Pager::Limits limits = limits_of(file->header(), options, seams);
+  const Pager::Limits limits = limits_of(file->header(), options);
   auto pager = Pager::create(std::move(*file), limits);
   if (!pager) return pager.error();
   try {
@@ -218,7 +221,7 @@ Result<std::uint64_t> ModelState::min_budget_bytes(const std::filesystem::path& 
   if (const auto checked = check_options(options); !checked) return checked.error();
   auto file = storage::PageFile::open(path);
   if (!file) return file.error();
-  return Pager::min_budget_bytes(*file, limits_of(file->header(), options, {}));
+  return Pager::min_budget_bytes(*file, limits_of(file->header(), options));
 }
 
 Result<Model> ModelState::open_model(const std::filesystem::path& path, const OpenOptions& options,

@@ -19,11 +19,10 @@
 namespace planetree::query {
 
 /// Parts of a model that tests and benchmarks may replace: system calls, so that disks can fail or
-/// hang; fetch threads, so that a test can call FetchWorker::work() itself; the eviction policy.
+/// hang; fetch threads, so that a test can call FetchWorker::work() itself.
 struct ModelSeams {
   storage::FileCalls& calls = storage::FileCalls::real();  ///< must outlive the model
   bool starts_fetching = true;                             ///< start fetch threads
-  cache::Policy policy = cache::Policy::kClock;
 };
 
 /// The implementation of Model: pager, state in the arena, threads. Any thread may call the const

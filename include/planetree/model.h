@@ -7,6 +7,7 @@
 #include <span>
 
 #include "planetree/error.h"
+#include "planetree/eviction_policy.h"
 #include "planetree/export.h"
 #include "planetree/layers.h"
 #include "planetree/stats.h"
@@ -65,6 +66,8 @@ struct OpenOptions {
   /// the mesh, unless NormalRule::kTowardQuery is set. Sides by SideRule::kSurface are as always.
   std::uint32_t layers = kAllLayers;
   Locking locking = Locking::kTry;  ///< whether memory is locked at open
+  /// How the page to evict is chosen. Answers do not depend on it, the number of pages read does.
+  EvictionPolicy policy = EvictionPolicy::kClock;
   /// Capacity of each probe's page trace, in accesses, up to kMaxPageTraceCapacity; see
   /// Model::drain_page_trace. It is rounded up to a power of two. Each access takes 16 bytes. 0
   /// records nothing.

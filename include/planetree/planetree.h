@@ -9,6 +9,7 @@
 
 #include "planetree/build.h"
 #include "planetree/error.h"
+#include "planetree/eviction_policy.h"
 #include "planetree/export.h"
 #include "planetree/layers.h"
 #include "planetree/model.h"

@@ -11,6 +11,7 @@
 
 #include "cache/page_cache.h"
 #include "planetree/error.h"
+#include "planetree/eviction_policy.h"
 #include "planetree/model.h"
 #include "query/file/open_layers.h"
 #include "query/serve/query_arena.h"
@@ -34,7 +35,7 @@ class Pager {
     Locking locking = Locking::kTry;
     std::chrono::milliseconds wait_limit{};  ///< longest wait of a query for one page
     bool use_io_uring = true;                ///< OpenOptions::use_io_uring
-    cache::Policy policy = cache::Policy::kClock;
+    EvictionPolicy policy = EvictionPolicy::kClock;
 
     unsigned readers() const noexcept { return max_probes + thread_probes; }
   };

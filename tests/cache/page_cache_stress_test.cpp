@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cache/page_cache.h"
+#include "tests/cache/policy/policy_kinds.h"
 #include "tests/cache/tagged_pages.h"
 
 namespace planetree::cache {
@@ -72,12 +73,12 @@ void run_reader(PageCache& cache, std::uint64_t seed, std::uint32_t sections, Se
   }
 }
 
-void storm(std::uint32_t reader_count, std::uint32_t frame_count) {
+void storm(std::uint32_t reader_count, std::uint32_t frame_count, EvictionPolicy policy) {
   TaggedPages pages;
   pages.make_unreadable(kUnreadable);
-  auto created =
-      PageCache::create(limits_for_frames(frame_count, kStormPages, reader_count, kStormFrameBytes),
-                        TaggedPages::fill, &pages);
+  auto created = PageCache::create(
+      limits_for_frames(frame_count, kStormPages, reader_count, kStormFrameBytes, policy),
+      TaggedPages::fill, &pages);
   ASSERT_TRUE(created);
   PageCache& cache = **created;
   ASSERT_EQ(cache.stats().frame_count, frame_count);
@@ -112,17 +113,21 @@ void storm(std::uint32_t reader_count, std::uint32_t frame_count) {
   EXPECT_LE(stats.fills - stats.evictions, frame_count);
 }
 
-TEST(PageCacheStress, ReadersNeverSeeAnotherPagesBytes) {
+class PageCacheStress : public testing::TestWithParam<EvictionPolicy> {};
+INSTANTIATE_TEST_SUITE_P(Policies, PageCacheStress, testing::ValuesIn(kAllPolicies),
+                         policy_test_name);
+
+TEST_P(PageCacheStress, ReadersNeverSeeAnotherPagesBytes) {
   for (const std::uint32_t reader_count : {1u, 2u, 3u, 4u, 8u}) {
     SCOPED_TRACE(reader_count);
-    storm(reader_count, reader_count + 2);
+    storm(reader_count, reader_count + 2, GetParam());
   }
 }
 
-TEST(PageCacheStress, ReadersNeverSeeAnotherPagesBytesWithSpareFrames) {
+TEST_P(PageCacheStress, ReadersNeverSeeAnotherPagesBytesWithSpareFrames) {
   for (const std::uint32_t reader_count : {2u, 8u}) {
     SCOPED_TRACE(reader_count);
-    storm(reader_count, 24);
+    storm(reader_count, 24, GetParam());
   }
 }
 

@@ -62,9 +62,9 @@ class TaggedPages {
 
 /// Returns limits with a budget that gives exactly `frame_count` frames.
 inline CacheLimits limits_for_frames(std::uint32_t frame_count, std::uint32_t page_count,
-                                     std::uint32_t max_readers,
-                                     std::uint32_t frame_bytes = 4096) noexcept {
-  CacheLimits limits{0, page_count, frame_bytes, max_readers, 0};
+                                     std::uint32_t max_readers, std::uint32_t frame_bytes = 4096,
+                                     EvictionPolicy policy = EvictionPolicy::kClock) noexcept {
+  CacheLimits limits{0, page_count, frame_bytes, max_readers, 0, policy};
   limits.budget_bytes = bytes_needed(limits, frame_count);
   return limits;
 }

@@ -48,17 +48,19 @@ TEST(Threads, GetTheSameBitsAtTheMinimumBudget) {
   EXPECT_EQ(model.stats().degraded_answers, 0u);
 }
 
-TEST(Threads, GetTheSameBitsUnderEitherEvictionPolicy) {
+TEST(Threads, GetTheSameBitsUnderAnyEvictionPolicy) {
   const SampleModel sample = SampleModel::masked(octree::sphere(5));
   const std::vector<Vec3> queries = random_queries(300, -1.3, 1.3);
   std::vector<std::vector<AnswerBits>> answers;
-  for (const cache::Policy policy : {cache::Policy::kClock, cache::Policy::kLru}) {
+  for (const EvictionPolicy policy :
+       {EvictionPolicy::kClock, EvictionPolicy::kLru, EvictionPolicy::kSieve,
+        EvictionPolicy::kS3Fifo, EvictionPolicy::kTwoQ}) {
     OpenOptions options;
     options.max_probes = 4;
-    // The use times of LRU take some bytes more than the scores of CLOCK.
+    options.policy = policy;
+    // Other policies take some bytes more than CLOCK.
     options.memory_budget_bytes = sample.min_budget(4) + 4096;
-    const auto model =
-        ModelState::open_model(sample.path(), options, {.starts_fetching = true, .policy = policy});
+    const auto model = Model::open(sample.path(), options);
     ASSERT_TRUE(model);
     std::vector<std::vector<AnswerBits>> own(4);
     std::vector<std::thread> threads;

@@ -13,12 +13,12 @@ namespace {
 
 constexpr std::uint32_t kPageBytes = 16384;
 
-std::uint64_t pages_read(const SampleModel& sample, cache::Policy policy) {
+std::uint64_t pages_read(const SampleModel& sample, EvictionPolicy policy) {
   OpenOptions options;
   options.memory_budget_bytes = sample.min_budget() + sample.page_count() / 8 * kPageBytes;
   options.max_probes = 1;
-  const auto model =
-      ModelState::open_model(sample.path(), options, {.starts_fetching = false, .policy = policy});
+  options.policy = policy;
+  const auto model = ModelState::open_model(sample.path(), options, {.starts_fetching = false});
   if (!model) std::abort();
   Probe probe = make_probe(*model);
   octree::Noise noise(1);
@@ -30,8 +30,8 @@ std::uint64_t pages_read(const SampleModel& sample, cache::Policy policy) {
 // LRU.
 TEST(UpperPages, StayWhereMemoryIsShort) {
   const SampleModel sample(octree::sphere(6), kPageBytes);
-  const std::uint64_t clock = pages_read(sample, cache::Policy::kClock);
-  const std::uint64_t lru = pages_read(sample, cache::Policy::kLru);
+  const std::uint64_t clock = pages_read(sample, EvictionPolicy::kClock);
+  const std::uint64_t lru = pages_read(sample, EvictionPolicy::kLru);
   EXPECT_LT(clock, lru * 93 / 100);
 }
 
