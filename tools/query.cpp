@@ -143,6 +143,7 @@ OpenOptions open_options(const QueryArguments& arguments) {
   OpenOptions options;
   options.memory_budget_bytes = arguments.memory_bytes;
   options.layers = arguments.layers;
+  options.policy = arguments.policy;
   options.batch_threads = static_cast<unsigned>(arguments.threads);
   options.wait_limit_ms = static_cast<unsigned>(arguments.wait_limit_ms);
   options.use_io_uring = !arguments.no_io_uring;

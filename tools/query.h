@@ -28,6 +28,7 @@ struct QueryArguments {
   bool parts_are_given = false;       ///< else the parts that the layers tell are computed
   bool contains = false;              ///< request the side alone
   std::uint32_t layers = kAllLayers;  ///< layers to open
+  EvictionPolicy policy = OpenOptions{}.policy;  ///< how the page to evict is chosen
   std::uint64_t memory_bytes = std::uint64_t{256} << 20;
   std::uint64_t threads = 0;  ///< batch threads; 0: one for each processor
   std::uint64_t wait_limit_ms = OpenOptions().wait_limit_ms;

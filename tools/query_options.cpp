@@ -4,6 +4,7 @@
 
 #include "octree/builder/mesh/stream/mesh_text.h"
 #include "tools/cli/layer_option.h"
+#include "tools/cli/policy_option.h"
 #include "tools/cli/subcommand_options.h"
 #include "tools/points/line_fields.h"
 #include "tools/query.h"
@@ -158,6 +159,7 @@ void add_limits(SubcommandOptions& subcommand, Options& options) {
                   "process that tries");
   subcommand.default_text(
       subcommand.bytes("--memory", arguments.memory_bytes, "Maximum memory for the model"), "256M");
+  add_policy(subcommand, arguments.policy);
   add_open_layers(subcommand, arguments.layers);
   subcommand.default_text(
       subcommand.count(

@@ -16,6 +16,7 @@
 #include "tools/cli/layer_option.h"
 #include "tools/cli/open_model.h"
 #include "tools/cli/output_file.h"
+#include "tools/cli/policy_option.h"
 #include "tools/cli/subcommand_options.h"
 #include "tools/session/session.h"
 #include "tools/session/session_report.h"
@@ -39,6 +40,7 @@ OpenOptions options_of(const TouchArguments& arguments) {
   OpenOptions options;
   options.memory_budget_bytes = arguments.memory_bytes;
   options.layers = arguments.layers;
+  options.policy = arguments.policy;
   options.use_io_uring = !arguments.no_io_uring;
   options.max_probes = 1;
   if (!arguments.trace.empty()) options.page_trace_capacity = PageTraceDrain::kAccessesWaiting;
@@ -134,6 +136,7 @@ void add_touch(CLI::App& app, Console& console, std::function<int()>& action) {
           "Motion of the tip: glide (along the surface, 0.02 % of the diagonal per tick), scratch "
           "(0.1 %) or teleport (to another surface point every hundred ticks)"),
       "glide");
+  add_policy(subcommand, options->policy);
   add_open_layers(subcommand, options->layers);
   subcommand.path("--ticks", "OUT.csv", options->ticks,
                   "Write all ticks here: tick,x,y,z,latency_us,query_us,width,side,status");

@@ -108,6 +108,29 @@ TEST(Model, RefusesMaxProbesOutOfRange) {
   }
 }
 
+TEST(Model, RefusesAnUnknownEvictionPolicy) {
+  const SampleModel sample(repeated(1));
+  OpenOptions options;
+  options.policy = static_cast<EvictionPolicy>(5);
+  expect_bad_argument(sample, options);
+}
+
+// The memory of the eviction policy counts towards the budget.
+TEST(Model, CountsTheEvictionPolicyIntoTheBudget) {
+  const SampleModel sample(sphere(6), 4096);
+  const auto frames = [&sample](EvictionPolicy policy) {
+    OpenOptions options;
+    options.max_probes = 1;
+    options.policy = policy;
+    options.memory_budget_bytes = sample.min_budget(1) + sample.page_count() / 2 * 4096;
+    const auto model = Model::open(sample.path(), options);
+    EXPECT_TRUE(model);
+    EXPECT_LE(model->stats().arena_bytes + model->stats().table_bytes, options.memory_budget_bytes);
+    return model->stats().frames;
+  };
+  EXPECT_LT(frames(EvictionPolicy::kTwoQ), frames(EvictionPolicy::kClock));
+}
+
 // The model's own threads claim readers too; the error counts only what callers may have.
 TEST(Model, NamesTheLimitOfProbesThatCallersHave) {
   const SampleModel sample(repeated(1));

@@ -9,6 +9,7 @@
 
 #include "planetree/stats.h"
 #include "tools/cli/layer_option.h"
+#include "tools/cli/policy_option.h"
 #include "tools/cli/size_text.h"
 #include "tools/cli/subcommand.h"
 #include "tools/session/sorted.h"
@@ -72,6 +73,7 @@ nlohmann::ordered_json report_of(const TouchArguments& arguments, const TouchRec
   return {{"file", arguments.file.string()},
           {"path", name_of(arguments.motion)},
           {"rate_hz", arguments.rate_hz},
+          {"policy", name_of(arguments.policy)},
           {"layers", layer_words(stats.layers)},
           {"ticks", record.ticks.size()},
           {"late", late},

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "planetree/layers.h"
+#include "planetree/model.h"
 #include "tools/session/session_path.h"
 
 namespace planetree::tools {
@@ -14,7 +15,8 @@ struct TouchArguments {
   std::uint64_t seconds = 10;
   std::uint64_t rate_hz = 1000;
   std::uint64_t memory_bytes = std::uint64_t{256} << 20;
-  std::uint32_t layers = kAllLayers;  ///< layers to open
+  std::uint32_t layers = kAllLayers;             ///< layers to open
+  EvictionPolicy policy = OpenOptions{}.policy;  ///< how the page to evict is chosen
   TouchMotion motion = TouchMotion::kGlide;
   std::filesystem::path ticks;  ///< file for all ticks; empty: none
   std::filesystem::path trace;  ///< file for all page accesses; empty: none
