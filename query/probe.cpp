@@ -35,6 +35,7 @@ ClosestPoint ProbeState::closest_point(const Vec3& query, const QueryOptions& op
   const bool incomplete = query::closest_point(
       {model_.geometry, accessor.pages(), coherence_, work}, query, limited, answer);
   if (incomplete && accessor.missed()) request(query, limited, limited.parts);
+  side_searches_ += coherence_.searched_side;
   last_parts_ = computed_parts(options.parts);
   last_side_rule_ = options.side_rule;
   if (answer.status == Status::kDegraded) model_.count_degraded(accessor.missed());
@@ -94,11 +95,12 @@ Containment ProbeState::contains(const Vec3& query, const QueryOptions& options)
   return search_side(query, options, scaled, lookup, trace);
 }
 
-void ProbeState::fetch_pages(const Vec3& query, const QueryOptions& options, bool is_prefetch,
+void ProbeState::fetch_pages(const Vec3& query, const QueryOptions& options, FetchReason reason,
                              const std::atomic<bool>& stop) noexcept {
   assert(options.wait == Wait::kForPages && options.max_work != QueryOptions::kNoLimit);
   if (!is_valid(query, options)) return;
-  trace_.set_prefetching(is_prefetch);
+  trace_.set_prefetching(reason != FetchReason::kMissed);
+  coherence_.follows_motion = reason == FetchReason::kMotion;
   PageAccessor accessor(reader_, options.wait, model_.fetcher_terms, &stop);
   accessor.set_trace(trace_.begin_query(options.wait));
   ClosestPoint unused = unanswered(Status::kExact);

@@ -55,11 +55,11 @@ class ProbeState {
   /// See Probe::motion.
   void note_motion(const Vec3& position, const Vec3& velocity) noexcept {
     model_.requests(reader_.index())
-        .motion.store(
-            {position, velocity, last_parts_, static_cast<std::uint64_t>(last_side_rule_)});
+        .motion.store({position, velocity, last_parts_, static_cast<std::uint64_t>(last_side_rule_),
+                       side_searches_});
   }
   /// See FetchProbe::fetch_pages.
-  void fetch_pages(const Vec3& query, const QueryOptions& options, bool is_prefetch,
+  void fetch_pages(const Vec3& query, const QueryOptions& options, FetchReason reason,
                    const std::atomic<bool>& stop) noexcept;
 
  private:
@@ -85,6 +85,7 @@ class ProbeState {
   std::unique_ptr<BatchBuffers> batch_buffers_;
   std::uint32_t last_parts_ = kAllParts;         // parts that the last query computed
   SideRule last_side_rule_ = SideRule::kOfFile;  // its side rule; not of contains_fast()
+  std::uint64_t side_searches_ = 0;              // closest-point queries that searched for the side
   Coherence coherence_;
 };
 
@@ -110,9 +111,9 @@ class QueryingFetchProbe final : public FetchProbe {
   QueryingFetchProbe(const ServingModel& model, cache::Reader reader)
       : probe_(ProbeState::create(model, std::move(reader))) {}
 
-  void fetch_pages(const Vec3& query, const QueryOptions& options, bool is_prefetch,
+  void fetch_pages(const Vec3& query, const QueryOptions& options, FetchReason reason,
                    const std::atomic<bool>& stop) noexcept override {
-    probe_->fetch_pages(query, options, is_prefetch, stop);
+    probe_->fetch_pages(query, options, reason, stop);
   }
   bool read_awaited_page() noexcept override { return probe_->reader().help(); }
 

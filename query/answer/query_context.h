@@ -21,6 +21,10 @@ namespace planetree::query {
 struct Coherence {
   /// If false, every query starts from the root, as the first one does. For tests.
   bool is_on = true;
+  /// True while a fetch thread prefetches for a moving probe. Its queries find sides as those of
+  /// the moving probe do: by the coherence, where that tells the side, so that no page of the mask
+  /// is read in vain.
+  bool follows_motion = false;
 
   octree::CoherenceCache nearest;      ///< subtrees and triangles near the last query
   octree::NearestAnswer last_nearest;  ///< last real-time answer; used if pages are missing
@@ -73,10 +77,11 @@ inline std::uint64_t max_units(const QueryOptions& options) {
 
 /// Returns whether a query may use the coherence. The answer of a query of limited work depends on
 /// which nodes it visits first, so a blocking query of limited work starts from the root. The
-/// answer of a real-time query depends on the resident pages in any case.
+/// answer of a real-time query depends on the resident pages in any case, and nobody uses that of a
+/// prefetch.
 inline bool may_use_coherence(const Coherence& coherence, const QueryOptions& options) {
-  return coherence.is_on &&
-         (options.wait == Wait::kNever || options.max_work == QueryOptions::kNoLimit);
+  return coherence.is_on && (options.wait == Wait::kNever || coherence.follows_motion ||
+                             options.max_work == QueryOptions::kNoLimit);
 }
 
 /// Returns the parts to compute: a normal needs the others.

@@ -26,6 +26,8 @@ struct Motion {
   Vec3 velocity;                ///< model units per second
   std::uint64_t parts = 0;      ///< parts of the probe's last query
   std::uint64_t side_rule = 0;  ///< its side rule
+  /// Number of the probe's closest-point queries so far that had to search for the side.
+  std::uint64_t side_searches = 0;
 };
 
 /// What one probe leaves for fetch threads. The probe's thread stores, a fetch thread loads.

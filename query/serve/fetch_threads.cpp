@@ -16,27 +16,12 @@
 namespace planetree::query {
 namespace {
 
-// Limits of how far ahead of a moving probe to prefetch; in between, the time that fetches take
-// decides.
-constexpr FetchWorker::Seconds kMinTimeAhead{0.005}, kMaxTimeAhead{0.2};
-constexpr unsigned kPositionsAhead = 4;
-
 QueryOptions blocking_options(std::uint64_t parts, std::uint64_t side_rule) {
   QueryOptions options;
   options.parts = static_cast<std::uint32_t>(parts);
   options.side_rule = static_cast<SideRule>(side_rule);
   options.max_work = QueryOptions::kRealTimeWork;
   return options;
-}
-
-bool is_moving(const Motion& motion) {
-  return motion.velocity.x != 0 || motion.velocity.y != 0 || motion.velocity.z != 0;
-}
-
-Vec3 position_after(const Motion& motion, FetchWorker::Seconds time) {
-  return {motion.position.x + motion.velocity.x * time.count(),
-          motion.position.y + motion.velocity.y * time.count(),
-          motion.position.z + motion.velocity.z * time.count()};
 }
 
 }  // namespace
@@ -84,7 +69,7 @@ bool FetchWorker::serve_request(std::size_t index) noexcept {
   options.max_work = std::clamp(static_cast<std::uint32_t>(request.max_work),
                                 QueryOptions::kRealTimeWork, QueryOptions::kNoLimit - 1);
   const Seconds began = clock_();
-  probe_->fetch_pages(request.point, options, false, stop_);
+  probe_->fetch_pages(request.point, options, FetchReason::kMissed, stop_);
   note_fetch_time(clock_() - began);
   return true;
 }
@@ -92,13 +77,13 @@ bool FetchWorker::serve_request(std::size_t index) noexcept {
 // Prefetches one position at a time, so that requests need not wait for all of them.
 bool FetchWorker::prefetch_position(std::size_t index) noexcept {
   Progress& progress = progress_[index];
-  if (requests_[index].motion.load_newer(progress.seen_motion, progress.motion))
-    progress.positions_left = is_moving(progress.motion) ? kPositionsAhead : 0;
-  if (progress.positions_left == 0) return false;
-  const unsigned at = kPositionsAhead - --progress.positions_left;
-  const Seconds ahead = std::clamp(2 * slowest_fetch_, kMinTimeAhead, kMaxTimeAhead);
-  probe_->fetch_pages(position_after(progress.motion, ahead * at / kPositionsAhead),
-                      blocking_options(progress.motion.parts, progress.motion.side_rule), true,
+  Motion motion;
+  if (requests_[index].motion.load_newer(progress.seen_motion, motion))
+    progress.motion.take(motion, clock_());
+  if (!progress.motion.has_next()) return false;
+  const MotionPrefetch::Ahead ahead = progress.motion.next(slowest_fetch_);
+  probe_->fetch_pages(ahead.position, blocking_options(ahead.parts, ahead.side_rule),
+                      ahead.searches_side ? FetchReason::kMotionOfSides : FetchReason::kMotion,
                       stop_);
   return true;
 }

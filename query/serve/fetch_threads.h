@@ -13,8 +13,16 @@
 #include "planetree/error.h"
 #include "planetree/types.h"
 #include "query/serve/fetch_requests.h"
+#include "query/serve/motion_prefetch.h"
 
 namespace planetree::query {
+
+/// Why a fetch thread makes pages resident.
+enum class FetchReason : std::uint8_t {
+  kMissed,         ///< a query lacked pages
+  kMotion,         ///< a probe moves there; its queries do not search for sides
+  kMotionOfSides,  ///< a probe moves there; its queries search for sides
+};
 
 /// Interface to the probe of a fetch thread. One thread at a time may use it.
 class FetchProbe {
@@ -23,12 +31,11 @@ class FetchProbe {
 
   /// Makes the pages resident that a query needs.
   ///
-  /// query        model units
-  /// options      Wait::kForPages with limited work. Such a query starts from the root, since the
-  ///              coherence of this probe does not tell which pages are resident.
-  /// is_prefetch  true: a probe moves towards `query`; false: a probe lacked pages there
-  /// stop         once true, the call gives up before the next missing page
-  virtual void fetch_pages(const Vec3& query, const QueryOptions& options, bool is_prefetch,
+  /// query    model units
+  /// options  Wait::kForPages with limited work. Such a query starts from the root, since the
+  ///          coherence of this probe does not tell which pages are resident.
+  /// stop     once true, the call gives up before the next missing page
+  virtual void fetch_pages(const Vec3& query, const QueryOptions& options, FetchReason reason,
                            const std::atomic<bool>& stop) noexcept = 0;
   /// Reads one page that a blocking query waits for. Returns false if there is none.
   virtual bool read_awaited_page() noexcept = 0;
@@ -39,11 +46,11 @@ class FetchProbe {
 /// the pages that blocking queries wait for. One thread at a time may use it.
 class FetchWorker {
  public:
-  using Seconds = std::chrono::duration<double>;
+  using Seconds = MotionPrefetch::Seconds;
   using Clock = Seconds (*)();
 
   /// Memory for each probe that it serves.
-  static constexpr std::uint64_t kProbeBytes = 96;
+  static constexpr std::uint64_t kProbeBytes = 192;
 
   /// requests     fetch requests of all probes, indexed by reader; must outlive this
   /// first, step  serves the probes with reader index first, first + step, ...
@@ -61,8 +68,7 @@ class FetchWorker {
   struct Progress {
     // Sequence numbers of the last values loaded, see SeqLock.
     std::uint64_t seen_request = 0, seen_motion = 0;
-    Motion motion;
-    unsigned positions_left = 0;  // positions still to prefetch for `motion`
+    MotionPrefetch motion;
   };
   static_assert(sizeof(Progress) <= kProbeBytes);
 

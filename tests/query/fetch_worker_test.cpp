@@ -222,6 +222,24 @@ TEST_F(FetchWorkerSimulation, RequestsComeBeforeMotionPrefetches) {
   EXPECT_EQ(worker.work(), FetchWorker::Action::kNone);
 }
 
+// The worker knows from the motion whether a probe searches for sides.
+TEST_F(FetchWorkerSimulation, MotionTellsThatAQueryHadToSearchForTheSide) {
+  const Model model = open(storage::FileCalls::real(), 64 << 20);
+  const ModelState& state = ModelState::of(model);
+  Probe probe = make_probe(model);
+  std::uint64_t seen = 0;
+  const auto side_searches = [&](const Vec3& point) {
+    probe.motion(point, {});
+    Motion motion;
+    for (FetchRequests& requests : state.serving().arena.fetch_requests)
+      if (requests.motion.load_newer(seen, motion)) return motion.side_searches;
+    return ~std::uint64_t{0};
+  };
+  EXPECT_EQ(side_searches({}), 0u);
+  for (const Vec3& point : random_queries(300, -0.999, 0.999, 3)) (void)probe.closest_point(point);
+  EXPECT_GT(side_searches({}), 0u);
+}
+
 // The only test here with a second thread, which only waits.
 TEST_F(FetchWorkerSimulation, RequestsAndBlockingQueriesAlternate) {
   ColdDisk disk;

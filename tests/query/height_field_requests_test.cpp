@@ -67,5 +67,28 @@ TEST_F(HeightFieldRequests, FetchTheMaskWhereFacesDecideTheSide) {
   EXPECT_GT(wished, 20u);
 }
 
+// A prefetch reads pages of the mask only if the moving probe searches for sides.
+TEST_F(HeightFieldRequests, PrefetchesLeaveTheMaskOutWhereFacesDecideTheSide) {
+  const auto pages_read = [this](FetchReason reason) {
+    const Model model = open();
+    const ModelState& state = ModelState::of(model);
+    QueryingFetchProbe probe(state.serving(), *state.claim_reader());
+    const std::uint64_t before = model.stats().pages_read;
+    QueryOptions options;
+    options.max_work = QueryOptions::kRealTimeWork;
+    for (const Vec3& point : random_queries(100, -1, 1)) {
+      const double share =
+          0.999 / std::sqrt(point.x * point.x + point.y * point.y + point.z * point.z);
+      probe.fetch_pages({point.x * share, point.y * share, point.z * share}, options, reason,
+                        never_);
+    }
+    return model.stats().pages_read - before;
+  };
+  const std::uint64_t tree_pages = pages_read(FetchReason::kMotion);
+  EXPECT_GT(tree_pages, 10u);
+  EXPECT_LT(tree_pages, pages_read(FetchReason::kMotionOfSides));
+  EXPECT_EQ(pages_read(FetchReason::kMotionOfSides), pages_read(FetchReason::kMissed));
+}
+
 }  // namespace
 }  // namespace planetree::query

@@ -1,0 +1,106 @@
+#include "query/serve/motion_prefetch.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace planetree::query {
+namespace {
+
+using Seconds = MotionPrefetch::Seconds;
+
+Motion moving(double position, double velocity, std::uint64_t side_searches = 0) {
+  Motion motion{{position, 1, 2}, {velocity, 0, 0}};
+  motion.side_searches = side_searches;
+  return motion;
+}
+
+/// The distances along x of all positions that are left.
+std::vector<double> ahead_of(MotionPrefetch& prefetch, double from, Seconds fetch_time = {}) {
+  std::vector<double> distances;
+  while (prefetch.has_next()) distances.push_back(prefetch.next(fetch_time).position.x - from);
+  return distances;
+}
+
+TEST(MotionPrefetch, HasPositionsAtQuartersOfTheHorizon) {
+  MotionPrefetch prefetch;
+  EXPECT_FALSE(prefetch.has_next());
+  prefetch.take(moving(3, 100), Seconds(0));
+  const std::vector<double> distances = ahead_of(prefetch, 3);
+  ASSERT_EQ(distances.size(), MotionPrefetch::kPositions);
+  for (unsigned i = 0; i < distances.size(); ++i)
+    EXPECT_NEAR(distances[i], 100 * MotionPrefetch::kMinHorizon.count() * (i + 1) / 4, 1e-9);
+}
+
+TEST(MotionPrefetch, HorizonCoversTwoFetchesWithinItsLimits) {
+  for (const auto& [fetch, horizon] : {std::pair(0.001, 0.005), {0.02, 0.04}, {5.0, 0.2}}) {
+    MotionPrefetch prefetch;
+    prefetch.take(moving(0, 1), Seconds(0));
+    EXPECT_NEAR(ahead_of(prefetch, 0, Seconds(fetch)).back(), horizon, 1e-9);
+  }
+}
+
+// A slow program calls motion() every 20 ms: a horizon of 5 ms would end before its next query.
+TEST(MotionPrefetch, HorizonCoversTwoMotions) {
+  MotionPrefetch prefetch;
+  for (int i = 0; i < 60; ++i) prefetch.take(moving(0, 1), Seconds(0.02 * i));
+  EXPECT_NEAR(ahead_of(prefetch, 0).back(), 0.04, 0.001);
+}
+
+TEST(MotionPrefetch, NewerMotionReplacesThePositionsLeft) {
+  MotionPrefetch prefetch;
+  prefetch.take(moving(0, 1), Seconds(0));
+  (void)prefetch.next({});
+  prefetch.take(moving(10, 1), Seconds(0.001));
+  const std::vector<double> distances = ahead_of(prefetch, 10);
+  ASSERT_EQ(distances.size(), MotionPrefetch::kPositions);
+  EXPECT_GT(distances.front(), 0);
+  EXPECT_LT(distances.back(), 1);
+}
+
+TEST(MotionPrefetch, ProbeAtRestHasNone) {
+  MotionPrefetch prefetch;
+  prefetch.take(moving(1, 0), Seconds(0));
+  EXPECT_FALSE(prefetch.has_next());
+  prefetch.take(moving(1, 5), Seconds(0.001));
+  prefetch.take(moving(1, 0), Seconds(0.002));
+  EXPECT_FALSE(prefetch.has_next());
+}
+
+TEST(MotionPrefetch, LeavesJumpsOut) {
+  MotionPrefetch prefetch;
+  prefetch.take(moving(0, 0), Seconds(0));
+  prefetch.take(moving(9, 9000), Seconds(0.001));  // from rest
+  EXPECT_FALSE(prefetch.has_next());
+  prefetch.take(moving(9, 1), Seconds(0.002));
+  EXPECT_TRUE(prefetch.has_next());
+  prefetch.take(moving(9, 3.9), Seconds(0.003));
+  EXPECT_TRUE(prefetch.has_next());
+  prefetch.take(moving(9, -3), Seconds(0.004));  // turns around
+  EXPECT_TRUE(prefetch.has_next());
+  prefetch.take(moving(50, 100), Seconds(0.005));
+  EXPECT_FALSE(prefetch.has_next());
+  prefetch.take(moving(50, std::numeric_limits<double>::infinity()), Seconds(0.006));
+  EXPECT_FALSE(prefetch.has_next());
+  prefetch.take(moving(50, std::nan("")), Seconds(0.007));
+  EXPECT_FALSE(prefetch.has_next());
+}
+
+TEST(MotionPrefetch, SearchesForSidesForAWhileAfterTheProbeDid) {
+  MotionPrefetch prefetch;
+  const auto searches_after = [&prefetch](std::uint64_t searches) {
+    prefetch.take(moving(0, 1, searches), Seconds(0));
+    return prefetch.next({}).searches_side;
+  };
+  EXPECT_FALSE(searches_after(7));  // nothing to compare with
+  EXPECT_FALSE(searches_after(7));
+  EXPECT_TRUE(searches_after(8));
+  for (std::uint32_t i = 1; i < MotionPrefetch::kMotionsAfterSearch; ++i)
+    EXPECT_TRUE(searches_after(8)) << i;
+  EXPECT_FALSE(searches_after(8));
+}
+
+}  // namespace
+}  // namespace planetree::query
