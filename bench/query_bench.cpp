@@ -25,6 +25,7 @@ struct Arguments {
   double max_error = 0;  // share of the diagonal
   std::uint32_t max_work = QueryOptions::kNoLimit;
   bool never_wait = false;
+  std::uint32_t page_trace_capacity = 0;
 };
 
 QueryOptions options_of(const Arguments& arguments, const Box& box) {
@@ -47,8 +48,11 @@ double query_all(Probe& probe, const std::vector<Vec3>& points, bool side_alone,
   return sum;
 }
 
-Result<Model> open(const std::string& path, std::uint32_t layers) {
-  return Model::open(path, {.memory_budget_bytes = std::uint64_t{16} << 30, .layers = layers});
+Result<Model> open(const std::string& path, std::uint32_t layers,
+                   std::uint32_t page_trace_capacity = 0) {
+  return Model::open(path, {.memory_budget_bytes = std::uint64_t{16} << 30,
+                            .layers = layers,
+                            .page_trace_capacity = page_trace_capacity});
 }
 
 // Where points are made: about the core of a model, or about its region.
@@ -78,7 +82,7 @@ int run(const Arguments& arguments) {
   const auto fail = [](const Error& error) {
     return std::cerr << "query_bench: " << error.text << '\n', 1;
   };
-  const auto model = open(arguments.model, arguments.layers);
+  const auto model = open(arguments.model, arguments.layers, arguments.page_trace_capacity);
   if (!model) return fail(model.error());
   const auto maker =
       open(arguments.region.empty() ? arguments.model : arguments.region, kAllLayers);
@@ -125,6 +129,9 @@ int main(int argc, char** argv) {
   app.add_option("--max-error", arguments.max_error, "Allowed error, as a share of the diagonal")
       ->capture_default_str();
   app.add_option("--max-work", arguments.max_work, "Maximum units of work of a query");
+  app.add_option("--page-trace", arguments.page_trace_capacity,
+                 "Capacity of a page trace in words, whose cost then counts")
+      ->capture_default_str();
   app.add_flag("--never-wait", arguments.never_wait, "Real-time queries; all pages are in memory");
   CLI11_PARSE(app, argc, argv);
   return planetree::bench::run(arguments);

@@ -40,6 +40,17 @@ enum class FillResult : std::uint8_t {
 /// cache's mutex and outside of their sections. It must not throw and must not call the cache.
 using FillPage = Result<FillResult> (*)(void* context, const FillRequest& request);
 
+/// Is told of the pages that a cache makes resident or evicts. The calls are made under the cache's
+/// mutex, by the thread that reads a page. They must not throw, wait or call the cache.
+struct CacheObserver {
+  void* context = nullptr;
+  /// A page is about to be shown to readers.
+  void (*on_install)(void* context, std::uint32_t fetcher, std::uint32_t page,
+                     PageTier tier) noexcept = nullptr;
+  /// A page has been hidden from readers, for a page that `fetcher` is to read.
+  void (*on_evict)(void* context, std::uint32_t fetcher, std::uint32_t page) noexcept = nullptr;
+};
+
 /// Counts since create(). While other threads work, the counts may be inconsistent with each
 /// other by a few events.
 struct CacheStats {
@@ -101,6 +112,9 @@ class PageCache {
   /// Locks arena and tables in memory, so that the system does not page them out. Returns false
   /// if the system refuses for either. Call it before there are readers.
   bool lock_memory() noexcept;
+
+  /// Sets whom to tell of installed and evicted pages. Call it before there are readers.
+  void set_observer(const CacheObserver& observer) noexcept { observer_ = observer; }
 
   /// For helpers: returns when a fetcher waits for a page that no fetcher reads, when `stop` is
   /// true, or when the given time has passed. After setting `stop`, call wake_helpers().
@@ -176,6 +190,7 @@ class PageCache {
   std::uint32_t free_count_;
   std::uint32_t pinned_count_ = 0;
   std::uint64_t locked_bytes_ = 0;
+  CacheObserver observer_;  // without functions: none
   Counts counts_;
 };
 

@@ -131,8 +131,9 @@ PageCache::Outcome PageCache::read_page(Lock& lock, std::uint32_t fetcher, std::
     return Outcome::kWouldBlock;
   }
   tables_.pages[frame] = page;
-  evictor_.install(frame, page,
-                   *filled == FillResult::kFilledUpper ? PageTier::kUpper : PageTier::kLower);
+  const PageTier tier = *filled == FillResult::kFilledUpper ? PageTier::kUpper : PageTier::kLower;
+  evictor_.install(frame, page, tier);
+  if (observer_.on_install) observer_.on_install(observer_.context, fetcher, page, tier);
   map_.publish(page, frame);
   add_one(counts_.fills);
   if (in_flight_reads_.serve(page, frame, wake_waiting) > 0) evictor_.hold(frame);
@@ -215,6 +216,7 @@ bool PageCache::evict_into_limbo(std::uint32_t fetcher) noexcept {
   evictor_.remove(frame);
   // The page must be withdrawn before the open sections are noted: E2, then E3.
   map_.withdraw(tables_.pages[frame]);
+  if (observer_.on_evict) observer_.on_evict(observer_.context, fetcher, tables_.pages[frame]);
   limbo_.retire(fetcher, frame);
   add_one(counts_.evictions);
   return true;

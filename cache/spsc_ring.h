@@ -47,10 +47,12 @@ struct StdRing {
 ///
 ///     producer                            consumer
 ///     P1  load the consumer's counter     C1  load the producer's counter
-///     P2  write a slot, if one is free    C2  read the slots up to it
-///     P3  increment its own counter       C3  increase its own counter
+///     P2  write slots, if they are free   C2  read the slots up to it
+///     P3  increase its own counter        C3  increase its own counter
 ///
 /// C1 acquires from P3 the slots written at P2. P1 acquires from C3 that the reads of C2 are over.
+/// The producer repeats P1 only where it has used up the slots that it saw free, and may write any
+/// number of records before P3. It may change a record until then.
 ///
 /// A view of slots; the caller owns them. The Atomics parameter is for tests, as in SeqLock.
 template <class Record, class Atomics = StdRing>
@@ -70,13 +72,59 @@ class alignas(64) SpscRing {
 
   /// Adds a record, or drops it if the ring is full. For the producer.
   void push(const Record& record) noexcept {
-    const std::uint64_t pushed = pushed_.load(std::memory_order_relaxed);
-    if (pushed - popped_.load(Atomics::order(RingStep::kSeeFreeSlots)) == slots_.size()) {
-      dropped_.store(dropped_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
-      return;
+    if (has_room(1) || find_room(1)) {
+      stage(record);
+      publish();
+    } else {
+      drop();
     }
-    slots_[pushed & (slots_.size() - 1)].write(record);
-    pushed_.store(pushed + 1, Atomics::order(RingStep::kPublishRecord));
+  }
+
+  // The steps of push(), for a producer that publishes several records at once.
+
+  /// Whether so many more records fit into the slots that are known to be free.
+  bool has_room(std::uint64_t records) const noexcept { return limit_ - staged_ >= records; }
+  /// Does the same after it has looked for slots that the consumer has freed.
+  bool find_room(std::uint64_t records) noexcept {
+    limit_ = popped_.load(Atomics::order(RingStep::kSeeFreeSlots)) + slots_.size();
+    return has_room(records);
+  }
+  /// Adds a record that the consumer does not see before publish(). Needs has_room(1).
+  void stage(const Record& record) noexcept {
+    assert(has_room(1));
+    slots_[staged_ & (slots_.size() - 1)].write(record);
+    ++staged_;
+  }
+  /// Shows all staged records to the consumer.
+  void publish() noexcept { pushed_.store(staged_, Atomics::order(RingStep::kPublishRecord)); }
+  /// Counts a record that found no room.
+  void drop() noexcept {
+    dropped_.store(dropped_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+  }
+
+  /// Makes has_room() say no until find_room() is called.
+  void forget_room() noexcept { limit_ = staged_; }
+
+  /// Number of records staged so far, the published ones included: the place of the next one.
+  std::uint64_t staged() const noexcept { return staged_; }
+  /// Number of records published so far: the place of the first one that may be changed.
+  std::uint64_t published() const noexcept { return pushed_.load(std::memory_order_relaxed); }
+  /// The record at a place, which must be staged and not yet published.
+  Record staged(std::uint64_t place) const noexcept {
+    assert(place < staged_);
+    return slots_[place & (slots_.size() - 1)].read();
+  }
+  /// Replaces that record.
+  void restage(std::uint64_t place, const Record& record) noexcept {
+    assert(place < staged_);
+    slots_[place & (slots_.size() - 1)].write(record);
+  }
+
+  /// Empties the ring and forgets what was dropped. While no other thread uses it.
+  void clear() noexcept {
+    publish();
+    popped_.store(staged_, Atomics::order(RingStep::kFreeSlots));
+    dropped_.store(0, std::memory_order_relaxed);
   }
 
   /// Removes the oldest records into `records`, in the order in which they were added. Returns
@@ -99,6 +147,8 @@ class alignas(64) SpscRing {
   using Number = typename Atomics::template Atomic<std::uint64_t>;
 
   std::span<Slot> slots_;
+  std::uint64_t staged_ = 0;  // the producer's own
+  std::uint64_t limit_ = 0;   // staged_ may grow up to here, as the producer knows
   Number pushed_{0};
   Number dropped_{0};
   alignas(64) Number popped_{0};  // on a line of its own, away from what the producer writes

@@ -50,6 +50,7 @@ struct Window {
   void run(ProbeState& probe, std::size_t first, std::size_t end) const noexcept {
     constexpr std::size_t kAhead = 2;  // queries
     probe.coherence().nearest.follow(octree::CoherenceCache::Course::kCurve);
+    probe.set_in_batch(true);
     for (std::size_t i = first; i < end; ++i) {
       // In the order of the curve, queries and answers are scattered in memory.
       if (i + kAhead < end) {
@@ -60,6 +61,7 @@ struct Window {
       // The memory may have held keys.
       ::new (static_cast<void*>(&answers[at])) Answer(answer(probe, queries[at]));
     }
+    probe.set_in_batch(false);
     probe.coherence().nearest.follow(octree::CoherenceCache::Course::kPath);
   }
   static void run_piece(const void* window, std::size_t thread, std::size_t first,

@@ -1,7 +1,6 @@
 #include "planetree/model.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <new>
@@ -15,6 +14,7 @@
 #include "query/model_state.h"
 #include "query/probe_state.h"
 #include "query/serve/page_accessor.h"
+#include "query/serve/trace_decoder.h"
 
 namespace planetree {
 namespace query {
@@ -141,6 +141,7 @@ Result<void> ModelState::fill_side_grid() {
   auto reader = claim_reader();
   if (!reader) return reader.error();
   PageAccessor accessor(*reader, Wait::kForPages);
+  accessor.set_trace(serving_->page_trace(reader->index()));
   ModelGeometry& geometry = serving_->geometry;
   std::span<std::byte> memory = serving_->arena.side_grid;
   if (geometry.tree.caps) {
@@ -201,13 +202,15 @@ Result<std::unique_ptr<ModelState>> ModelState::open(const std::filesystem::path
   if (const auto checked = check_options(options); !checked) return checked.error();
   auto file = storage::PageFile::open(path, seams.calls);
   if (!file) return file.error();
-  const Pager::Limits limits = limits_of(file->header(), options);
+  Pager::Limits limits = limits_of(file->header(), options);
+  limits.trace_time = seams.trace_time;
   auto pager = Pager::create(std::move(*file), limits);
   if (!pager) return pager.error();
   try {
     std::unique_ptr<ModelState> state(new ModelState(std::move(*pager)));
     if (const auto filled = state->fill_side_grid(); !filled) return filled.error();
     if (const auto filled = state->fill_field(); !filled) return filled.error();
+    if (PageTraces* const traces = state->serving_->arena.traces) traces->finish_open();
     if (const auto started = state->start_threads(options, seams); !started) return started.error();
     return state;
   } catch (const std::bad_alloc&) {
@@ -233,20 +236,10 @@ Result<Model> ModelState::open_model(const std::filesystem::path& path, const Op
 }
 
 std::size_t ModelState::drain_page_trace(std::span<PageAccess> accesses) const noexcept {
-  std::size_t count = 0;
-  for (std::uint32_t index = 0; index < serving_->arena.traces.size(); ++index) {
-    std::array<TracedAccess, 64> taken;
-    for (std::size_t got = taken.size(); got == taken.size();) {
-      const std::size_t capacity = std::min(taken.size(), accesses.size() - count);
-      got = serving_->arena.traces[index].ring.pop(std::span(taken).first(capacity));
-      for (const TracedAccess& access : std::span(taken).first(got)) {
-        const std::uint64_t octcode = pager_->file().entries()[access.page].octcode;
-        const auto level = static_cast<std::uint8_t>(octree::cell_of_octcode(octcode).level);
-        accesses[count++] = {access.query, index, access.page, level, access.kind};
-      }
-    }
-  }
-  return count;
+  PageTraces* const traces = serving_->arena.traces;
+  if (!traces) return 0;
+  traces->clock.advance();
+  return TraceDecoder(*traces, pager_->file()).decode(accesses);
 }
 
 Stats ModelState::stats() const noexcept {
@@ -260,8 +253,8 @@ Stats ModelState::stats() const noexcept {
   stats.waits_given_up = cache.given_up;
   stats.degraded_answers = serving_->degraded.load(std::memory_order_relaxed);
   stats.degraded_without_misses = serving_->degraded_without_misses.load(std::memory_order_relaxed);
-  for (const PageTrace& trace : serving_->arena.traces)
-    stats.page_trace_dropped += trace.ring.dropped();
+  if (const PageTraces* const traces = serving_->arena.traces)
+    stats.page_trace_dropped = traces->dropped();
   for (const FetchRequests& fetch_requests : serving_->arena.fetch_requests)
     stats.fetch_requests += fetch_requests.missed.store_count();
   if (fetch_threads_) {

@@ -13,16 +13,19 @@
 #include "query/serve/batch_threads.h"
 #include "query/serve/fetch_threads.h"
 #include "query/serve/pager.h"
+#include "query/serve/trace_clock.h"
 #include "query/serving_model.h"
 #include "storage/system/file_calls.h"
 
 namespace planetree::query {
 
 /// Parts of a model that tests and benchmarks may replace: system calls, so that disks can fail or
-/// hang; fetch threads, so that a test can call FetchWorker::work() itself.
+/// hang; fetch threads, so that a test can call FetchWorker::work() itself; the clock of the page
+/// trace.
 struct ModelSeams {
   storage::FileCalls& calls = storage::FileCalls::real();  ///< must outlive the model
   bool starts_fetching = true;                             ///< start fetch threads
+  TimeSource trace_time{};  ///< time of the page trace; its context must outlive the model
 };
 
 /// The implementation of Model: pager, state in the arena, threads. Any thread may call the const

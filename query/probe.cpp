@@ -1,6 +1,7 @@
 #include "planetree/probe.h"
 
 #include <cassert>
+#include <limits>
 #include <new>
 #include <utility>
 
@@ -24,13 +25,18 @@ void ProbeState::request(const Vec3& query, const QueryOptions& options,
                      static_cast<std::uint64_t>(options.normal_rule)});
 }
 
-ClosestPoint ProbeState::closest_point(const Vec3& query, const QueryOptions& options) noexcept {
+template <PageAccess::Query kKind>
+ClosestPoint ProbeState::find_closest_point(const Vec3& query,
+                                            const QueryOptions& options) noexcept {
   const bool valid = is_valid(query, options);
   ClosestPoint answer = unanswered(valid ? Status::kExact : Status::kBadQuery);
   if (!valid) return answer;
   const QueryOptions limited = with_defaults(options);
   PageAccessor accessor(reader_, options.wait, model_.query_terms);
-  accessor.set_trace(trace_.begin_query(options.wait));
+  if (trace_) {
+    trace_->begin_query(kKind, options.wait);
+    accessor.set_trace(trace_);
+  }
   octree::TraversalStats work;
   const bool incomplete = query::closest_point(
       {model_.geometry, accessor.pages(), coherence_, work}, query, limited, answer);
@@ -38,25 +44,34 @@ ClosestPoint ProbeState::closest_point(const Vec3& query, const QueryOptions& op
   side_searches_ += coherence_.searched_side;
   last_parts_ = computed_parts(options.parts);
   last_side_rule_ = options.side_rule;
-  if (answer.status == Status::kDegraded) model_.count_degraded(accessor.missed());
+  if (answer.status == Status::kDegraded)
+    note_degraded(answer.upper - answer.lower, accessor.missed());
   return answer;
 }
 
+ClosestPoint ProbeState::closest_point(const Vec3& query, const QueryOptions& options) noexcept {
+  return find_closest_point<PageAccess::Query::kClosestPoint>(query, options);
+}
+
+[[gnu::noinline]] void ProbeState::note_degraded(double width, bool missed) noexcept {
+  model_.count_degraded(missed);
+  if (trace_) trace_->degraded(width);
+}
+
 // Not inlined, because most calls of contains() end before it and then save few registers.
-[[gnu::noinline]] Containment ProbeState::search_side(const Vec3& query,
-                                                      const QueryOptions& options,
-                                                      const octree::Point& scaled,
-                                                      const octree::SideGrid::Lookup& lookup,
-                                                      PageTraceWriter* trace) noexcept {
+[[gnu::noinline]] Containment ProbeState::search_side(
+    const Vec3& query, const QueryOptions& options, const octree::Point& scaled,
+    const octree::SideGrid::Lookup& lookup) noexcept {
   const QueryOptions limited = with_defaults(options);
   PageAccessor accessor(reader_, options.wait, model_.query_terms);
-  accessor.set_trace(trace);
+  accessor.set_trace(trace_);
   octree::TraversalStats work;
   const SideResult side = find_containment({model_.geometry, accessor.pages(), coherence_, work},
                                            query, scaled, lookup, limited);
   if (side.status == Status::kDegraded) {
     if (accessor.missed()) request(query, limited, kSide);
-    model_.count_degraded(accessor.missed());
+    accessor.pages().need_others();
+    note_degraded(std::numeric_limits<double>::infinity(), accessor.missed());
   }
   return {side.side, side.status};
 }
@@ -65,7 +80,7 @@ ClosestPoint ProbeState::closest_point(const Vec3& query, const QueryOptions& op
 [[gnu::noinline]] Containment ProbeState::find_front(const Vec3& query,
                                                      QueryOptions options) noexcept {
   options.parts = kSide;
-  const ClosestPoint answer = closest_point(query, options);
+  const ClosestPoint answer = find_closest_point<PageAccess::Query::kContains>(query, options);
   return {answer.side, answer.status};
 }
 
@@ -73,8 +88,8 @@ ClosestPoint ProbeState::closest_point(const Vec3& query, const QueryOptions& op
 [[gnu::noinline]] Containment ProbeState::leave_unknown(const QueryOptions& options) noexcept {
   last_parts_ = kSide;
   last_side_rule_ = options.side_rule;
-  trace_.begin_query(options.wait);
-  model_.count_degraded(false);
+  if (trace_) trace_->begin_query(PageAccess::Query::kContains, options.wait);
+  note_degraded(std::numeric_limits<double>::infinity(), false);
   return {Side::kUnknown, Status::kDegraded};
 }
 
@@ -86,28 +101,31 @@ Containment ProbeState::contains(const Vec3& query, const QueryOptions& options)
   const octree::Point scaled = model_.geometry.scale.in(query);
   last_parts_ = kSide;
   last_side_rule_ = options.side_rule;
-  PageTraceWriter* const trace = trace_.begin_query(options.wait);
+  if (trace_) trace_->begin_query(PageAccess::Query::kContains, options.wait);
   const octree::SideGrid::Lookup lookup =
       look_up_side_grid(model_.geometry, scaled, frames_of(reader_));
   coherence_.side_grid_answered = lookup.winding != octree::SideGrid::kUnknown;
   if (coherence_.side_grid_answered)
     return {lookup.winding != 0 ? Side::kInside : Side::kOutside, Status::kExact};
-  return search_side(query, options, scaled, lookup, trace);
+  return search_side(query, options, scaled, lookup);
 }
 
 void ProbeState::fetch_pages(const Vec3& query, const QueryOptions& options, FetchReason reason,
                              const std::atomic<bool>& stop) noexcept {
   assert(options.wait == Wait::kForPages && options.max_work != QueryOptions::kNoLimit);
   if (!is_valid(query, options)) return;
-  trace_.set_prefetching(reason != FetchReason::kMissed);
   coherence_.follows_motion = reason == FetchReason::kMotion;
   PageAccessor accessor(reader_, options.wait, model_.fetcher_terms, &stop);
-  accessor.set_trace(trace_.begin_query(options.wait));
+  if (trace_) {
+    trace_->begin_query(reason == FetchReason::kMissed ? PageAccess::Query::kFetch
+                                                       : PageAccess::Query::kPrefetch,
+                        options.wait);
+    accessor.set_trace(trace_);
+  }
   ClosestPoint unused = unanswered(Status::kExact);
   octree::TraversalStats work;
   query::closest_point({model_.geometry, accessor.pages(), coherence_, work}, query, options,
                        unused);
-  trace_.set_prefetching(false);
 }
 
 }  // namespace planetree::query

@@ -17,6 +17,7 @@
 #include "query/serve/fetch_requests.h"
 #include "query/serve/fetch_threads.h"
 #include "query/serve/page_accessor.h"
+#include "query/serve/page_trace.h"
 #include "query/serving_model.h"
 
 namespace planetree::query {
@@ -57,31 +58,47 @@ class ProbeState {
     model_.requests(reader_.index())
         .motion.store({position, velocity, last_parts_, static_cast<std::uint64_t>(last_side_rule_),
                        side_searches_});
+    if (trace_) trace_->motion(position, velocity);
+  }
+  /// Says whether the next queries are of a batch, for the trace.
+  void set_in_batch(bool in_batch) noexcept {
+    if (trace_) trace_->set_in_batch(in_batch);
   }
   /// See FetchProbe::fetch_pages.
   void fetch_pages(const Vec3& query, const QueryOptions& options, FetchReason reason,
                    const std::atomic<bool>& stop) noexcept;
+  /// See FetchProbe::read_awaited_page.
+  bool read_awaited_page() noexcept {
+    if (trace_) {
+      model_.arena.traces->clock.advance();
+      trace_->set_kind(PageAccess::Query::kFetch);
+    }
+    return reader_.help();
+  }
 
  private:
   ProbeState(const ServingModel& model, cache::Reader reader,
              std::unique_ptr<BatchBuffers> batch_buffers) noexcept
       : reader_(std::move(reader)),
         model_(model),
-        trace_(model.page_trace_writer(reader_.index())),
+        trace_(model.page_trace(reader_.index())),
         batch_buffers_(std::move(batch_buffers)) {}
 
+  template <PageAccess::Query kKind>
+  ClosestPoint find_closest_point(const Vec3& query, const QueryOptions& options) noexcept;
   Containment search_side(const Vec3& query, const QueryOptions& options,
-                          const octree::Point& scaled, const octree::SideGrid::Lookup& lookup,
-                          PageTraceWriter* trace) noexcept;
+                          const octree::Point& scaled,
+                          const octree::SideGrid::Lookup& lookup) noexcept;
   Containment find_front(const Vec3& query, QueryOptions options) noexcept;
   Containment leave_unknown(const QueryOptions& options) noexcept;
+  void note_degraded(double width, bool missed) noexcept;
   void request(const Vec3& query, const QueryOptions& options, std::uint32_t parts) noexcept;
 
   // First, so that it is destroyed last: once the reader slot is released, another thread may make
   // a probe in this memory.
   cache::Reader reader_;
   const ServingModel& model_;
-  PageTraceWriter trace_;
+  PageTrace* const trace_;  // null: none
   std::unique_ptr<BatchBuffers> batch_buffers_;
   std::uint32_t last_parts_ = kAllParts;         // parts that the last query computed
   SideRule last_side_rule_ = SideRule::kOfFile;  // its side rule; not of contains_fast()
@@ -101,7 +118,7 @@ inline Containment ProbeState::contains_fast(const Vec3& query,
   const int winding = model_.geometry.side_grid.find_fast(query.x, query.y, query.z);
   if (winding == octree::SideGrid::kUnknown) return {};
   last_parts_ = kSide;
-  trace_.begin_query(options.wait);
+  if (trace_) trace_->count_query();
   return {winding != 0 ? Side::kInside : Side::kOutside, Status::kExact};
 }
 
@@ -115,7 +132,7 @@ class QueryingFetchProbe final : public FetchProbe {
                    const std::atomic<bool>& stop) noexcept override {
     probe_->fetch_pages(query, options, reason, stop);
   }
-  bool read_awaited_page() noexcept override { return probe_->reader().help(); }
+  bool read_awaited_page() noexcept override { return probe_->read_awaited_page(); }
 
  private:
   std::unique_ptr<ProbeState> probe_;

@@ -8,7 +8,7 @@
 
 #include "cache/page_cache.h"
 #include "query/answer/model_geometry.h"
-#include "query/serve/page_accessor.h"
+#include "query/serve/page_trace.h"
 #include "query/serve/query_arena.h"
 
 namespace planetree::query {
@@ -45,9 +45,9 @@ struct ServingModel {
   FetchRequests& requests(std::uint32_t reader) const noexcept {
     return arena.fetch_requests[reader];
   }
-  PageTraceWriter page_trace_writer(std::uint32_t reader) const noexcept {
-    if (arena.traces.empty()) return {nullptr, nullptr};
-    return {&arena.traces[reader], arena.marks.data()};
+  /// The trace of the probe with this reader index, or null if there is none.
+  PageTrace* page_trace(std::uint32_t reader) const noexcept {
+    return arena.traces ? &arena.traces->of_readers[reader] : nullptr;
   }
 };
 

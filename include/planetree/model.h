@@ -68,9 +68,9 @@ struct OpenOptions {
   Locking locking = Locking::kTry;  ///< whether memory is locked at open
   /// How the page to evict is chosen. Answers do not depend on it, the number of pages read does.
   EvictionPolicy policy = EvictionPolicy::kClock;
-  /// Capacity of each probe's page trace, in accesses, up to kMaxPageTraceCapacity; see
-  /// Model::drain_page_trace. It is rounded up to a power of two. Each access takes 16 bytes. 0
-  /// records nothing.
+  /// Capacity of the page trace of each probe and thread, in words of 8 bytes, up to
+  /// kMaxPageTraceCapacity; see Model::drain_page_trace. It is rounded up to a power of two. A page
+  /// lookup takes a word, a page read or evicted up to 3, a motion up to 9. 0 records nothing.
   std::uint32_t page_trace_capacity = 0;
 
   /// Wait limit: maximum time in milliseconds that a blocking query (Wait::kForPages) waits for a
@@ -145,12 +145,16 @@ class PLANETREE_API Model {
   /// threads  any, but not real-time threads: it takes no mutex, but it reads memory outside of
   ///          the arena, which the system may have swapped out.
   Stats stats() const noexcept;
-  /// Moves accesses from the page traces to `accesses`: all of one probe, the oldest first, then
-  /// those of the next. Real-time queries record their page lookups if
-  /// OpenOptions::page_trace_capacity is above 0. If the trace of the probe is full, a query does
-  /// not record the lookup. Stats::page_trace_dropped counts such lookups.
+  /// Moves records from the page traces of all probes and threads to `accesses`, in the order of
+  /// their times. If OpenOptions::page_trace_capacity is above 0, every query records its page
+  /// lookups, and every thread the pages that it reads and evicts. The records of Model::open come
+  /// first, or are left out if the capacity is too small for all of them.
   ///
-  /// return   number of accesses written. If it is less than accesses.size(), the call has emptied
+  /// A query records nothing while its trace is full. Stats::page_trace_dropped counts the records
+  /// lost. Records of a query that runs appear when it ends, so that a later call may return
+  /// records of times before those of an earlier call.
+  ///
+  /// return   number of records written. If it is less than accesses.size(), the call has emptied
   ///          all traces.
   /// threads  any, but no two at the same time. Takes no mutex.
   std::size_t drain_page_trace(std::span<PageAccess> accesses) const noexcept;

@@ -61,8 +61,11 @@ NearestAnswer nearest_on_target(const TreeInfo& tree, const Point& query,
     from_ball ? traversal.run_from(*coherence_cache)
               : traversal.run_from_root(within(limits, query, coherence_cache));
     if (limits.known) traversal.fall_back_on(*limits.known);
-    return finalize(tree, query, limits, traversal.best(), traversal.float_query(),
-                    traversal.skipped_bounds());
+    const NearestAnswer found = finalize(tree, query, limits, traversal.best(),
+                                         traversal.float_query(), traversal.skipped_bounds());
+    if (found.status == Status::kDegraded) [[unlikely]]
+      pages.need_within(traversal.best().exact_threshold());
+    return found;
   };
   NearestAnswer answer = in_list ? nearest_of_list(tree, query, limits,
                                                    coherence_cache->triangles(), reach, limit, work)

@@ -149,13 +149,13 @@ class NearestTraversal {
   // Skips a record whose page is missing. The box that its parent stores still bounds the distance
   // from above.
   void skip(const FrontierEntry& entry) {
-    skipped_.unread = std::min(skipped_.unread, entry.bound);
+    skipped_.unread = std::min(skipped_.unread, records_.skip(entry.bound));
     if (box_lookups_ == kMaxBoxLookups || !work_left_.take(WorkUnits::kParentSearch)) return;
     ++box_lookups_;
     if (entry.from == LinkResolver::kNoPage) return skip_subtree_of_ball(entry.link);
     const LinkResolver::Child child = records_.find_parent(entry.link, entry.from);
-    if (!child.node) return;
-    skipped_.bound_above(child_box(*child.node, child.index), query_ - tree_.centre);
+    if (child.node)
+      skipped_.bound_above(child_box(*child.node, child.index), query_ - tree_.centre);
   }
 
   // Skips a subtree of the ball, whose box is in the list. The root is skipped here too, but it

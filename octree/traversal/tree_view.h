@@ -45,6 +45,16 @@ struct PrefetchHook {
   bool (*step)(void* context, const PageReader& pages) noexcept = nullptr;
 };
 
+/// What searches tell of the pages that were not available, for a trace. No answer depends on it.
+struct MissHook {
+  /// A search goes on without what the page missed last holds. `bound` is its squared bound.
+  void (*on_skip)(void* context, float bound) noexcept;
+  /// Pages skipped with a bound up to `threshold` could have changed the answer.
+  void (*need_within)(void* context, float threshold) noexcept;
+  /// So could all pages missed so far of which on_skip was not called.
+  void (*need_others)(void* context) noexcept;
+};
+
 /// Access to decoded pages. `page` returns the frame of page `number`, or null if the page is not
 /// available. The pointer is valid until the next call, or, if a reader sets the release hook,
 /// until the hook is called. A PageReader is passed by reference; objects that keep the reference
@@ -58,6 +68,18 @@ struct PageReader {
   FrameTable frames{};                       ///< empty: nothing is prefetched
   PrefetchHook* prefetch_hook = nullptr;     ///< for one reader at a time; null: it has none
   FrameReleaseHook* release_hook = nullptr;  ///< for one reader at a time; null: see `page`
+  const MissHook* miss_hook = nullptr;       ///< its `context` is that of this; null: none
+
+  /// The calls of `miss_hook`.
+  void skip(float bound) const noexcept {
+    if (miss_hook) miss_hook->on_skip(context, bound);
+  }
+  void need_within(float threshold) const noexcept {
+    if (miss_hook) miss_hook->need_within(context, threshold);
+  }
+  void need_others() const noexcept {
+    if (miss_hook) miss_hook->need_others(context);
+  }
 };
 
 /// What a traversal needs of a tree. Lengths and points are in the model frame.
@@ -136,6 +158,12 @@ class LinkResolver {
   /// Returns whether the record is in the page that was found last.
   bool is_in_current_page(std::uint32_t link) const {
     return links_.page(link) == page_number_ && frame_;
+  }
+  /// Notes that the search goes on without the record found last, of this squared bound. Returns
+  /// the bound.
+  float skip(float bound) const {
+    pages_.skip(bound);
+    return bound;
   }
   /// Returns the page of the last record.
   std::uint32_t page() const { return page_number_; }

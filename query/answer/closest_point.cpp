@@ -297,6 +297,7 @@ class ClosestPointQuery {
 
   void mark_degraded() {
     incomplete_ = true;
+    pages_.need_others();
     if (answer_.status != Status::kBeyondMaxDistance) answer_.status = Status::kDegraded;
   }
 

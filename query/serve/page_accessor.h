@@ -6,68 +6,11 @@
 
 #include "cache/page_cache.h"
 #include "cache/reader.h"
-#include "cache/spsc_ring.h"
 #include "octree/traversal/tree_view.h"
-#include "planetree/trace.h"
 #include "planetree/types.h"
+#include "query/serve/page_trace.h"
 
 namespace planetree::query {
-
-/// The members of a PageAccess that are not known elsewhere.
-struct TracedAccess {
-  std::uint64_t query = 0;
-  std::uint32_t page = 0;
-  PageAccess::Kind kind = PageAccess::Kind::kHit;
-};
-
-/// The page accesses of the probes with one reader index, for Model::drain_page_trace.
-struct PageTrace {
-  cache::SpscRing<TracedAccess> ring;
-  std::uint64_t queries = 0;  ///< real-time queries so far, also of earlier probes
-};
-
-/// One mark per page. Not 0: the page was fetched because a probe moved towards it, and no query
-/// has looked it up since. Accessed with relaxed order, since no other data depends on it.
-using PrefetchMark = std::atomic<std::uint8_t>;
-
-/// Records one probe's page lookups if the model keeps a trace. One thread at a time may use it.
-class PageTraceWriter {
- public:
-  /// marks  indexed by page. Both are null if there is no trace.
-  PageTraceWriter(PageTrace* trace, PrefetchMark* marks) noexcept : trace_(trace), marks_(marks) {}
-
-  /// Call it at the beginning of a query. Returns this, or null if there is no trace.
-  PageTraceWriter* begin_query(Wait wait) noexcept {
-    if (trace_ == nullptr) return nullptr;
-    is_blocking_ = wait == Wait::kForPages;
-    if (!is_blocking_) ++trace_->queries;
-    return this;
-  }
-  /// Sets whether the pages fetched from now on are for a moving probe.
-  void set_prefetching(bool ahead) noexcept { is_prefetching_ = ahead; }
-
-  /// Record a lookup: the page was resident, was not available, or is being fetched.
-  void found(std::uint32_t page) noexcept {
-    const bool prefetched = marks_[page].load(std::memory_order_relaxed) != 0;
-    if (prefetched && !is_prefetching_) marks_[page].store(0, std::memory_order_relaxed);
-    if (!is_blocking_)
-      note(page, prefetched ? PageAccess::Kind::kPrefetched : PageAccess::Kind::kHit);
-  }
-  void missed(std::uint32_t page) noexcept { note(page, PageAccess::Kind::kMissed); }
-  void fetched(std::uint32_t page) noexcept {
-    marks_[page].store(is_prefetching_ ? 1 : 0, std::memory_order_relaxed);
-  }
-
- private:
-  void note(std::uint32_t page, PageAccess::Kind kind) noexcept {
-    trace_->ring.push({trace_->queries - 1, page, kind});
-  }
-
-  PageTrace* trace_;
-  PrefetchMark* marks_;
-  bool is_blocking_ = false;
-  bool is_prefetching_ = false;
-};
 
 /// Returns the table of frames, for prefetching.
 inline octree::FrameTable frames_of(const cache::Reader& reader) noexcept {
@@ -98,13 +41,15 @@ class PageAccessor {
         wait_(wait),
         may_wait_(wait == Wait::kForPages) {}
   ~PageAccessor() {
-    if (reader_.inside()) reader_.leave();
+    if (!reader_.inside()) return;
+    reader_.leave();
+    if (trace_) trace_->end_query();
   }
   PageAccessor(const PageAccessor&) = delete;
   PageAccessor& operator=(const PageAccessor&) = delete;
 
   /// Sets where page lookups are recorded; null: nowhere.
-  void set_trace(PageTraceWriter* trace) noexcept { trace_ = trace; }
+  void set_trace(PageTrace* trace) noexcept { trace_ = trace; }
 
   /// Returns the page's frame, or null if it is not available. The pointer is valid until the next
   /// call or, if the release hook of pages() is set, until the hook is called.
@@ -116,11 +61,11 @@ class PageAccessor {
     begin_section();
     if (prefetch_hook_.context && lookups_ % kLookupsPerStep == 0) advance_prefetcher();
     if (const std::byte* frame = reader_.find(number)) {
-      if (trace_) trace_->found(number);
+      if (trace_) trace_->hit(number);
       return frame;
     }
     if (may_wait_ && !(stop_ && stop_->load(std::memory_order_relaxed))) return fetch(number);
-    if (trace_ && wait_ == Wait::kNever) trace_->missed(number);
+    if (trace_) trace_->missed(number);
     missed_ = true;
     return nullptr;
   }
@@ -138,6 +83,8 @@ class PageAccessor {
   const octree::PageReader& pages() const noexcept { return pages_; }
 
  private:
+  static const octree::MissHook kMissHook;  // reports to the trace
+
   void begin_section() noexcept {
     if (!reader_.inside()) reader_.enter();
   }
@@ -152,19 +99,24 @@ class PageAccessor {
   // neither waits for all pages of the other.
   // Not inlined: few lookups fetch.
   [[gnu::noinline]] const std::byte* fetch(std::uint32_t number) noexcept {
-    if (trace_) trace_->fetched(number);
     release_frames();
-    if (stop_) {
-      reader_.leave();
-      reader_.help();
-      reader_.enter();
-    }
+    if (stop_) help();
+    if (trace_) trace_->fetched(number);
     const cache::FetchResult fetched = reader_.fetch(number, terms_);
     if (fetched.given_up) {
       missed_ = true;
       may_wait_ = false;
     }
     return fetched.frame;
+  }
+
+  void help() noexcept {
+    reader_.leave();
+    const PageAccess::Query kind =
+        trace_ ? trace_->set_kind(PageAccess::Query::kFetch) : PageAccess::Query::kFetch;
+    reader_.help();
+    if (trace_) trace_->set_kind(kind);
+    reader_.enter();
   }
 
   // The section is renewed after so many lookups, since evicted frames are reused only after the
@@ -183,7 +135,8 @@ class PageAccessor {
             },
             frames_of(reader),
             &prefetch_hook_,
-            &release_hook_};
+            &release_hook_,
+            &kMissHook};
   }
 
   const octree::PageReader pages_;
@@ -192,11 +145,23 @@ class PageAccessor {
   const std::atomic<bool>* const stop_;
   octree::FrameReleaseHook release_hook_;
   octree::PrefetchHook prefetch_hook_;
-  PageTraceWriter* trace_ = nullptr;
+  PageTrace* trace_ = nullptr;
   const Wait wait_;
   bool may_wait_;  // false for good after a wait was given up
   bool missed_ = false;
   std::uint32_t lookups_ = 0;
 };
+
+inline const octree::MissHook PageAccessor::kMissHook = {
+    [](void* context, float bound) noexcept {
+      if (PageTrace* trace = static_cast<PageAccessor*>(context)->trace_) trace->skipped(bound);
+    },
+    [](void* context, float threshold) noexcept {
+      if (PageTrace* trace = static_cast<PageAccessor*>(context)->trace_)
+        trace->need_within(threshold);
+    },
+    [](void* context) noexcept {
+      if (PageTrace* trace = static_cast<PageAccessor*>(context)->trace_) trace->need_others();
+    }};
 
 }  // namespace planetree::query

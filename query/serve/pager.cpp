@@ -67,6 +67,7 @@ Result<void> Pager::claim(const Limits& limits) {
   auto arena = QueryArena::claim(limits.arena);
   if (!arena) return arena.error();
   query_arena_.emplace(*std::move(arena));
+  start_traces(limits.trace_time);
   if (const auto locked = lock(limits.locking); !locked) return locked;
   const std::uint64_t fetchers = fetcher_count(limits);
   scratch_.reset(new (std::nothrow) std::byte[fetchers * scratch_bytes(file_.header())]);
@@ -75,6 +76,21 @@ Result<void> Pager::claim(const Limits& limits) {
     return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
                       "no memory to read pages; free some and try again");
   return {};
+}
+
+void Pager::start_traces(TimeSource time) noexcept {
+  PageTraces* const traces = query_arena_->parts().traces;
+  if (!traces) return;
+  traces->clock.start(time);
+  cache_->set_observer(
+      {traces,
+       [](void* context, std::uint32_t fetcher, std::uint32_t page, cache::PageTier tier) noexcept {
+         static_cast<PageTraces*>(context)->of_fetcher(fetcher).installed(
+             page, tier == cache::PageTier::kUpper);
+       },
+       [](void* context, std::uint32_t fetcher, std::uint32_t page) noexcept {
+         static_cast<PageTraces*>(context)->of_fetcher(fetcher).evicted(page);
+       }});
 }
 
 Result<void> Pager::lock(Locking locking) noexcept {

@@ -36,6 +36,7 @@ class Pager {
     std::chrono::milliseconds wait_limit{};  ///< longest wait of a query for one page
     bool use_io_uring = true;                ///< OpenOptions::use_io_uring
     EvictionPolicy policy = EvictionPolicy::kClock;
+    TimeSource trace_time;  ///< of the page traces
 
     unsigned readers() const noexcept { return max_probes + thread_probes; }
   };
@@ -65,6 +66,7 @@ class Pager {
       : file_(std::move(file)), opened_(opened) {}
   Result<void> claim(const Limits& limits);
   Result<void> lock(Locking locking) noexcept;
+  void start_traces(TimeSource time) noexcept;
   static cache::CacheLimits cache_limits(const storage::PageFile& file,
                                          const Limits& limits) noexcept;
   /// pin() is one more than the readers.

@@ -24,14 +24,20 @@ QueryArena::Parts cut(cache::ArenaLayout& layout, const QueryArena::Needs& needs
   parts.field = std::as_writable_bytes(layout.cut<Line>(lines(needs.field_bytes)));
   parts.side_grid = layout.cut<std::byte>(needs.side_grid_bytes);
   if (needs.page_trace_capacity == 0) return parts;
-  using Ring = cache::SpscRing<TracedAccess>;
-  const std::uint64_t slots = Ring::slots_for(needs.page_trace_capacity);
-  parts.traces = layout.cut<PageTrace>(needs.readers);
-  parts.marks = layout.cut<PrefetchMark>(needs.page_count);
-  const auto all_slots = layout.cut<Ring::Slot>(needs.readers * slots);
+  const std::uint64_t slots = PageTrace::Ring::slots_for(needs.page_trace_capacity);
+  const auto traces = layout.cut<PageTraces>(1);
+  const auto of_readers = layout.cut<PageTrace>(needs.readers);
+  const auto cursors = layout.cut<TraceCursor>(needs.readers);
+  const auto states = layout.cut<std::uint8_t>(needs.page_count);
+  const auto all_slots = layout.cut<PageTrace::Ring::Slot>(needs.readers * slots);
   // While the layout only measures, there are no traces.
-  for (std::size_t i = 0; i < parts.traces.size(); ++i)
-    parts.traces[i].ring.attach(all_slots.subspan(i * slots, slots));
+  if (traces.empty()) return parts;
+  parts.traces = traces.data();
+  parts.traces->of_readers = of_readers;
+  parts.traces->cursors = cursors;
+  parts.traces->states_of_pages = states;
+  for (std::size_t i = 0; i < of_readers.size(); ++i)
+    of_readers[i].attach(parts.traces->clock, all_slots.subspan(i * slots, slots));
   return parts;
 }
 

@@ -8,7 +8,7 @@
 #include "cache/prefaulted_memory.h"
 #include "planetree/error.h"
 #include "query/serve/fetch_requests.h"
-#include "query/serve/page_accessor.h"
+#include "query/serve/page_trace.h"
 
 namespace planetree::query {
 
@@ -23,7 +23,7 @@ class QueryArena {
     std::uint64_t probe_bytes = 0;  ///< size of a probe's state
     std::uint64_t side_grid_bytes = 0;
     std::uint64_t field_bytes = 0;
-    std::uint64_t page_trace_capacity = 0;  ///< records per reader; 0: no trace
+    std::uint64_t page_trace_capacity = 0;  ///< words per reader; 0: no trace
     std::uint64_t page_count = 0;
   };
 
@@ -33,9 +33,8 @@ class QueryArena {
     std::span<std::byte> probes;              ///< see probe()
     std::span<FetchRequests> fetch_requests;  ///< indexed by reader
     std::span<std::byte> side_grid;
-    std::span<std::byte> field;     ///< aligned to a cache line
-    std::span<PageTrace> traces;    ///< indexed by reader; empty without a trace
-    std::span<PrefetchMark> marks;  ///< indexed by page; empty without a trace
+    std::span<std::byte> field;    ///< aligned to a cache line
+    PageTraces* traces = nullptr;  ///< null without a trace
 
     /// Returns storage for the state of the probe with a reader index, aligned to a cache line.
     void* probe(std::uint32_t reader) const noexcept {

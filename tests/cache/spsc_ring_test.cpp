@@ -39,6 +39,40 @@ TEST(SpscRing, DropsEveryRecordWithoutSlots) {
   EXPECT_EQ(ring.dropped(), 1u);
 }
 
+TEST(SpscRing, ShowsStagedRecordsWhenTheyArePublished) {
+  std::vector<IntRing::Slot> slots(4);
+  IntRing ring;
+  ring.attach(slots);
+  EXPECT_FALSE(ring.has_room(1));  // not known before the first look
+  ASSERT_TRUE(ring.find_room(4));
+  EXPECT_FALSE(ring.find_room(5));
+  ring.stage(1);
+  const std::uint64_t place = ring.staged();
+  EXPECT_EQ(ring.published(), 0u);
+  ring.stage(2);
+  ring.stage(3);
+  ring.restage(place, ring.staged(place) + 40);
+  std::vector<int> popped(4);
+  EXPECT_EQ(ring.pop(popped), 0u);
+  EXPECT_FALSE(ring.has_room(2));
+  EXPECT_TRUE(ring.has_room(1));
+  ring.forget_room();
+  EXPECT_FALSE(ring.has_room(1));
+  ring.publish();
+  EXPECT_EQ(ring.published(), 3u);
+  ASSERT_EQ(ring.pop(popped), 3u);
+  EXPECT_EQ(popped, (std::vector<int>{1, 42, 3, 0}));
+  EXPECT_FALSE(ring.has_room(2));
+  EXPECT_TRUE(ring.find_room(4));
+  ring.drop();
+  EXPECT_EQ(ring.dropped(), 1u);
+  ring.push(5);
+  ring.clear();
+  EXPECT_EQ(ring.dropped(), 0u);
+  EXPECT_EQ(ring.pop(popped), 0u);
+  EXPECT_TRUE(ring.find_room(4));
+}
+
 /// The order of one step may be weakened.
 struct ExploredRing {
   template <class T>
@@ -63,7 +97,15 @@ class RingProgram final : public explorer::Program {
 
   void run(std::uint32_t thread) override {
     if (thread == 0) {
-      for (int value = 1; value <= kValues; ++value) ring_.push(value);
+      ring_.push(1);
+      // Two at once, the first of which is changed before the consumer may see it.
+      if (ring_.find_room(2)) {
+        ring_.stage(-1);
+        ring_.stage(3);
+        ring_.restage(ring_.staged() - 2, 2);
+        ring_.publish();
+      }
+      ring_.push(kValues);
       return;
     }
     int last = 0;

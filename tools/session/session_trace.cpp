@@ -11,16 +11,19 @@ namespace {
 
 constexpr auto kPause = std::chrono::milliseconds(2);
 
-const char* access_word(PageAccess::Kind kind) {
-  switch (kind) {
-    case PageAccess::Kind::kHit:
+/// Returns the word for a lookup, or null for any other record.
+const char* access_word(PageAccess::Event event) {
+  switch (event) {
+    case PageAccess::Event::kHit:
       return "hit";
-    case PageAccess::Kind::kPrefetched:
+    case PageAccess::Event::kPrefetched:
       return "prefetched";
-    case PageAccess::Kind::kMissed:
+    case PageAccess::Event::kMissed:
+    case PageAccess::Event::kLate:
       return "missed";
+    default:
+      return nullptr;
   }
-  return "";
 }
 
 }  // namespace
@@ -55,10 +58,12 @@ void PageTraceDrain::drain() {
 
 std::string touch_trace(std::span<const PageAccess> accesses) {
   std::string text = "tick,probe,page,level,access\n";
-  for (const PageAccess& access : accesses)
-    if (access.query > 0)
+  for (const PageAccess& access : accesses) {
+    const char* const word = access_word(access.event);
+    if (word && !access.waits && access.query > 0)
       fmt::format_to(std::back_inserter(text), "{},{},{},{},{}\n", access.query - 1, access.probe,
-                     access.page, access.level, access_word(access.kind));
+                     access.page, access.level, word);
+  }
   return text;
 }
 
