@@ -168,6 +168,7 @@ const std::vector<Layer>& layers() {
        with_system({"fmt"})},
       {"tools/manual", {"tools/cli"}, {}, {"CLI", "fmt"}},
       {"tools/shapes", {"tools/cli"}, {}, {"fmt"}},
+      {"tools/trace_file", {"tools/cli", "storage/file"}, {"storage/system"}, {}},
       {"tools/session", {"tools/points", "tools/cli"}, {}, with_system({"fmt", "nlohmann"})},
       // inspect and verify look into damaged files, below what the queries see.
       {"tools/check",
