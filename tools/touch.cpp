@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -13,6 +14,7 @@
 
 #include "planetree/model.h"
 #include "planetree/probe.h"
+#include "tools/cli/duration_text.h"
 #include "tools/cli/layer_option.h"
 #include "tools/cli/open_model.h"
 #include "tools/cli/output_file.h"
@@ -22,6 +24,9 @@
 #include "tools/session/session_report.h"
 #include "tools/session/session_ticks.h"
 #include "tools/session/session_trace.h"
+#include "tools/simulation/simulated_session.h"
+#include "tools/simulation/trace_budget.h"
+#include "tools/trace_file/trace_writer.h"
 
 namespace planetree::tools {
 namespace {
@@ -43,7 +48,6 @@ OpenOptions options_of(const TouchArguments& arguments) {
   options.policy = arguments.policy;
   options.use_io_uring = !arguments.no_io_uring;
   options.max_probes = 1;
-  if (!arguments.trace.empty()) options.page_trace_capacity = PageTraceDrain::kAccessesWaiting;
   return options;
 }
 
@@ -51,22 +55,23 @@ OpenOptions options_of(const TouchArguments& arguments) {
 /// That model has all layers, so that the path does not depend on those of the session.
 Result<std::vector<Vec3>> find_path(const TouchArguments& arguments, Console& console) {
   OpenOptions options = options_of(arguments);
-  options.page_trace_capacity = 0;
   options.layers = kAllLayers;
   const auto model = open_model(arguments.file, options, console);
   if (!model) return model.error();
   auto probe = Probe::create(*model);
   if (!probe) return probe.error();
-  return touch_path(*model, *probe, arguments.motion, arguments.seconds * arguments.rate_hz);
+  return touch_path(*model, *probe, arguments.motion, arguments.seconds * arguments.rate_hz,
+                    arguments.seed);
 }
 
 /// Opens an additional output file, if `path` names one. Opened before the session, which may be
 /// long, so that the command fails early.
-Result<std::optional<OutputFile>> open_extra_output(const std::filesystem::path& path, bool force) {
-  if (path.empty()) return std::optional<OutputFile>();
-  auto file = OutputFile::create(path, force);
+template <class File>
+Result<std::optional<File>> open_extra_output(const std::filesystem::path& path, bool force) {
+  if (path.empty()) return std::optional<File>();
+  auto file = File::create(path, force);
   if (!file) return file.error();
-  return std::optional<OutputFile>(std::move(*file));
+  return std::optional<File>(std::move(*file));
 }
 
 Result<void> write_whole(OutputFile& file, const std::string& text) {
@@ -74,37 +79,101 @@ Result<void> write_whole(OutputFile& file, const std::string& text) {
   return file.commit();
 }
 
+/// What a session comes to.
+struct Outcome {
+  TouchRecord record;
+  Stats stats;
+  std::optional<PrefetchFigures> prefetch;  ///< if there was a trace
+  Result<void> trace_written;               ///< whether the trace file is complete
+};
+
+/// Runs the session on the real disk, in real time.
+Result<Outcome> run_real(const TouchArguments& arguments, std::span<const Vec3> path,
+                         std::optional<TraceWriter>& writer) {
+  OpenOptions options = options_of(arguments);
+  if (writer) {
+    options.page_trace_capacity = DrainThread::kTraceWords;
+    const auto budget = budget_with_trace(arguments.file, options);
+    if (!budget) return budget.error();
+    options.memory_budget_bytes = *budget;
+  }
+  const auto model = Model::open(arguments.file, options);
+  if (!model) return model.error();
+  auto probe = Probe::create(*model);
+  if (!probe) return probe.error();
+  const auto period = std::chrono::nanoseconds(std::chrono::seconds(1)) /
+                      static_cast<std::int64_t>(arguments.rate_hz);
+  Outcome outcome;
+  if (!writer) {
+    outcome.record = run_touch_session(*probe, path, period, parts_told(*model));
+    outcome.stats = model->stats();
+    return outcome;
+  }
+  TraceHeader header =
+      trace_header_of(*model, arguments.file, arguments.memory_bytes, arguments.policy);
+  header.rate_hz = static_cast<std::uint32_t>(arguments.rate_hz);
+  header.fetch_threads = static_cast<std::uint16_t>(options.fetch_threads);
+  outcome.trace_written = writer->begin(header);
+  TraceRecorder recorder(*model, *writer);
+  {
+    const DrainThread drain(recorder);
+    outcome.record = run_touch_session(*probe, path, period, parts_told(*model));
+  }
+  if (outcome.trace_written) outcome.trace_written = recorder.finish(path.size());
+  outcome.prefetch = recorder.prefetch();
+  outcome.stats = model->stats();
+  return outcome;
+}
+
+/// Runs the session on a simulated disk and clock.
+Result<Outcome> run_simulated(const TouchArguments& arguments, std::span<const Vec3> path,
+                              std::optional<TraceWriter>& writer) {
+  SimulationOptions options;
+  options.file = arguments.file;
+  options.memory_bytes = arguments.memory_bytes;
+  options.policy = arguments.policy;
+  options.layers = arguments.layers;
+  options.rate_hz = static_cast<std::uint32_t>(arguments.rate_hz);
+  options.latency_ns = arguments.latency_ns;
+  auto session = SimulatedSession::open(options);
+  if (!session) return session.error();
+  Outcome outcome;
+  if (writer) outcome.trace_written = writer->begin((*session)->trace_header());
+  SimulatedRecord record = (*session)->run(path, [&](std::span<const PageAccess> accesses) {
+    if (writer && outcome.trace_written) outcome.trace_written = writer->add(accesses);
+  });
+  if (writer && outcome.trace_written)
+    outcome.trace_written = writer->finish(path.size(), record.stats.page_trace_dropped);
+  outcome.record.ticks = std::move(record.ticks);
+  outcome.prefetch = std::move(record.prefetch);
+  outcome.stats = record.stats;
+  return outcome;
+}
+
 }  // namespace
 
 int run_touch(const TouchArguments& arguments, Console& console) {
   const std::string file = arguments.file.string();
-  auto ticks = open_extra_output(arguments.ticks, arguments.force);
+  auto ticks = open_extra_output<OutputFile>(arguments.ticks, arguments.force);
   if (!ticks) return console.fail(arguments.ticks.string(), ticks.error());
-  auto trace = open_extra_output(arguments.trace, arguments.force);
+  auto trace = open_extra_output<TraceWriter>(arguments.trace, arguments.force);
   if (!trace) return console.fail(arguments.trace.string(), trace.error());
   const auto path = find_path(arguments, console);
   if (!path) return console.fail(file, path.error());
   if (arguments.cold) drop_from_page_cache(arguments.file);
 
-  const auto model = Model::open(arguments.file, options_of(arguments));
-  if (!model) return console.fail(file, model.error());
-  auto probe = Probe::create(*model);
-  if (!probe) return console.fail(file, probe.error());
-  const auto period = std::chrono::nanoseconds(std::chrono::seconds(1)) /
-                      static_cast<std::int64_t>(arguments.rate_hz);
-  std::optional<PageTraceDrain> drain;
-  if (*trace) drain.emplace(*model);
-  const TouchRecord record = run_touch_session(*probe, *path, period, parts_told(*model));
-  const std::string trace_text = drain ? touch_trace(drain->finish()) : "";
-  console.print(arguments.json ? touch_json(arguments, record, *model)
-                               : touch_words(arguments, record, *model));
+  const auto outcome = arguments.is_deterministic ? run_simulated(arguments, *path, *trace)
+                                                  : run_real(arguments, *path, *trace);
+  if (!outcome) return console.fail(file, outcome.error());
+  const PrefetchFigures* const prefetch = outcome->prefetch ? &*outcome->prefetch : nullptr;
+  console.print(arguments.json ? touch_json(arguments, outcome->record, outcome->stats, prefetch)
+                               : touch_words(arguments, outcome->record, outcome->stats, prefetch));
   if (*ticks)
-    if (const auto written = write_whole(**ticks, touch_ticks(*path, record)); !written)
+    if (const auto written = write_whole(**ticks, touch_ticks(*path, outcome->record)); !written)
       return console.finish(console.fail(arguments.ticks.string(), written.error()));
-  if (*trace)
-    if (const auto written = write_whole(**trace, trace_text); !written)
-      return console.finish(console.fail(arguments.trace.string(), written.error()));
-  const auto error = pages_lost(model->stats());
+  if (!outcome->trace_written)
+    return console.finish(console.fail(arguments.trace.string(), outcome->trace_written.error()));
+  const auto error = pages_lost(outcome->stats);
   return console.finish(error ? console.fail(file, *error) : kDone);
 }
 
@@ -140,9 +209,30 @@ void add_touch(CLI::App& app, Console& console, std::function<int()>& action) {
   add_open_layers(subcommand, options->layers);
   subcommand.path("--ticks", "OUT.csv", options->ticks,
                   "Write all ticks here: tick,x,y,z,latency_us,query_us,width,side,status");
-  subcommand.path("--trace", "OUT.csv", options->trace,
-                  "Write all page accesses of the session here: tick,probe,page,level,access (hit, "
-                  "prefetched or missed)");
+  subcommand.path(
+      "--trace", "OUT.trace", options->trace,
+      "Write the page trace of the session here, in the format of "
+      "format-spec/trace-v1/spec.md: page lookups, pages read and evicted, motions. Its "
+      "memory comes on top of --memory");
+  subcommand.flag("--deterministic", options->is_deterministic,
+                  "Simulate disk and clock: the session depends on the file and these options "
+                  "alone, to the bit, and takes less time. Nothing of the machine is reported");
+  const auto complaint = [](const std::string& text) -> std::string {
+    const auto latency = parse_latency(text);
+    return latency ? std::string() : std::string(latency.error().text);
+  };
+  const auto take = [options](const std::string& text) {
+    options->latency_ns = *parse_latency(text);
+    options->latency_is_given = true;
+  };
+  subcommand.default_text(
+      subcommand.text("--latency", "TIME", complaint, take,
+                      "With --deterministic: time in which the disk reads a page, such as 85us"),
+      "85us");
+  subcommand.default_text(
+      subcommand.count("--seed", options->seed, std::numeric_limits<std::uint64_t>::max(),
+                       "Choose another path of the same kind"),
+      "20");
   subcommand.flag("--force", options->force,
                   "Replace the files of --ticks and --trace if they exist");
   subcommand.flag(
@@ -155,6 +245,10 @@ void add_touch(CLI::App& app, Console& console, std::function<int()>& action) {
   subcommand.on_given([options, &console, &action]() -> std::string {
     if (options->trace == "-" || options->ticks == "-")
       return "--ticks and --trace need files; standard output is for the report";
+    if (options->is_deterministic && (options->cold || options->no_io_uring))
+      return "--deterministic reads no real disk; omit --cold and --no-io-uring";
+    if (options->latency_is_given && !options->is_deterministic)
+      return "--latency is that of a simulated disk; add --deterministic";
     if (options->seconds == 0 || options->rate_hz == 0)
       return "the session has no ticks; give --seconds and --rate of 1 or more";
     action = [options, &console] { return run_touch(*options, console); };

@@ -123,6 +123,11 @@ void drop_priority_and_block_signals() noexcept {
 
 }  // namespace
 
+std::chrono::microseconds FetchThreads::pause_after(
+    std::chrono::nanoseconds since_action) noexcept {
+  return since_action < kBusyPeriod ? kBusyPause : kIdlePause;
+}
+
 void FetchThreads::run(FetchWorker& worker) noexcept {
   prefault_stack();
   drop_priority_and_block_signals();
@@ -132,8 +137,7 @@ void FetchThreads::run(FetchWorker& worker) noexcept {
     const FetchWorker::Action action = worker.work();
     if (action == FetchWorker::Action::kReadAwaitedPage) continue;
     if (action == FetchWorker::Action::kNone) {
-      cache_.wait_for_wanted_page(Clock::now() - last < kBusyPeriod ? kBusyPause : kIdlePause,
-                                  stopping_);
+      cache_.wait_for_wanted_page(pause_after(Clock::now() - last), stopping_);
       continue;
     }
     last = Clock::now();

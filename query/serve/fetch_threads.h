@@ -106,6 +106,9 @@ class FetchThreads {
   /// Stops the threads. Waits for the pages that they are reading.
   ~FetchThreads();
 
+  /// Time between two looks for work, where the last action of a thread was so long ago.
+  static std::chrono::microseconds pause_after(std::chrono::nanoseconds since_action) noexcept;
+
   /// Counters since start(). Any thread may call these; they do not wait.
   std::uint64_t fetch_requests_served() const noexcept {
     return requests_served_.load(std::memory_order_relaxed);

@@ -38,7 +38,6 @@ class PageAccessor {
         reader_(reader),
         terms_(terms),
         stop_(stop),
-        wait_(wait),
         may_wait_(wait == Wait::kForPages) {}
   ~PageAccessor() {
     if (!reader_.inside()) return;
@@ -146,7 +145,6 @@ class PageAccessor {
   octree::FrameReleaseHook release_hook_;
   octree::PrefetchHook prefetch_hook_;
   PageTrace* trace_ = nullptr;
-  const Wait wait_;
   bool may_wait_;  // false for good after a wait was given up
   bool missed_ = false;
   std::uint32_t lookups_ = 0;

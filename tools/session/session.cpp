@@ -30,14 +30,6 @@ std::uint32_t in_32_bits(nanoseconds time) noexcept {
   return static_cast<std::uint32_t>(std::clamp<std::int64_t>(time.count(), 0, kMax));
 }
 
-// Velocity in model units a second; 0 at the first tick.
-Vec3 velocity_at(std::span<const Vec3> path, std::size_t tick, nanoseconds period) noexcept {
-  if (tick == 0) return {};
-  const double per_second = 1e9 / static_cast<double>(period.count());
-  const Vec3 &from = path[tick - 1], &to = path[tick];
-  return {(to.x - from.x) * per_second, (to.y - from.y) * per_second, (to.z - from.z) * per_second};
-}
-
 void run_ticks(Probe& probe, std::span<const Vec3> path, nanoseconds start, nanoseconds period,
                const QueryOptions& options, TouchRecord& record) noexcept {
   record.rights = become_real_time();
@@ -72,6 +64,13 @@ void run_idle_thread(nanoseconds start, nanoseconds period,
 }
 
 }  // namespace
+
+Vec3 velocity_at(std::span<const Vec3> path, std::size_t tick, nanoseconds period) noexcept {
+  if (tick == 0) return {};
+  const double per_second = 1e9 / static_cast<double>(period.count());
+  const Vec3 &from = path[tick - 1], &to = path[tick];
+  return {(to.x - from.x) * per_second, (to.y - from.y) * per_second, (to.z - from.z) * per_second};
+}
 
 TouchRecord run_touch_session(Probe& probe, std::span<const Vec3> path, nanoseconds period,
                               std::uint32_t parts) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -27,6 +28,11 @@ struct TouchRecord {
   RealTimeRights rights;                ///< of the querying thread
   ThreadUsage usage;                    ///< of the querying thread during its ticks
 };
+
+/// Velocity of the tip in model units a second: from the last tick's position to this one's; 0 at
+/// the first tick.
+Vec3 velocity_at(std::span<const Vec3> path, std::size_t tick,
+                 std::chrono::nanoseconds period) noexcept;
 
 /// Runs a session of path.size() ticks. Each query has these `parts`. An idle thread is due half a
 /// tick later on the same processor. It does nothing, so that its lateness is that of the machine.

@@ -22,12 +22,13 @@ double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
 
 class Walk {
  public:
-  Walk(const Model& model, Probe& probe, double step)
+  Walk(const Model& model, Probe& probe, double step, std::uint64_t seed)
       : core_lower_(model.info().core_lower),
         core_upper_(model.info().core_upper),
         diagonal_(length(sum(core_upper_, core_lower_, -1))),
         step_(step * diagonal_),
-        probe_(probe) {}
+        probe_(probe),
+        random_(seed) {}
 
   // Moves to a random surface point.
   void jump() {
@@ -83,7 +84,7 @@ class Walk {
   const double diagonal_;
   const double step_;
   Probe& probe_;
-  std::mt19937_64 random_{20};
+  std::mt19937_64 random_;
   Vec3 at_;
   Vec3 heading_;
 };
@@ -91,8 +92,8 @@ class Walk {
 }  // namespace
 
 std::vector<Vec3> touch_path(const Model& model, Probe& probe, TouchMotion motion,
-                             std::size_t ticks) {
-  Walk walk(model, probe, motion == TouchMotion::kScratch ? 1e-3 : 2e-4);
+                             std::size_t ticks, std::uint64_t seed) {
+  Walk walk(model, probe, motion == TouchMotion::kScratch ? 1e-3 : 2e-4, seed);
   walk.jump();
   std::vector<Vec3> path;
   path.reserve(ticks);

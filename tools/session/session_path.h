@@ -25,12 +25,15 @@ constexpr const char* name_of(TouchMotion motion) {
                                            : "teleport";
 }
 
+/// The seed of a path by default.
+inline constexpr std::uint64_t kTouchSeed = 20;
+
 inline constexpr std::array<TouchMotion, 3> kAllTouchMotions = {
     TouchMotion::kGlide, TouchMotion::kScratch, TouchMotion::kTeleport};
 
-/// The tip's position at each tick, model units. A function of model, motion and count alone. Makes
-/// blocking queries with the probe.
+/// The tip's position at each tick, model units. A function of model, motion, count and seed alone.
+/// Makes blocking queries with the probe.
 std::vector<Vec3> touch_path(const Model& model, Probe& probe, TouchMotion motion,
-                             std::size_t ticks);
+                             std::size_t ticks, std::uint64_t seed = kTouchSeed);
 
 }  // namespace planetree::tools

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "planetree/stats.h"
 #include "tools/cli/layer_option.h"
 #include "tools/cli/policy_option.h"
 #include "tools/cli/size_text.h"
@@ -60,39 +59,29 @@ std::vector<std::uint32_t> refine_ticks(const TouchRecord& record) {
   return runs;
 }
 
-nlohmann::ordered_json report_of(const TouchArguments& arguments, const TouchRecord& record,
-                                 const Model& model) {
-  const Stats stats = model.stats();
-  const std::uint64_t period_ns = 1'000'000'000 / arguments.rate_hz;
-  const auto late = std::count_if(record.ticks.begin(), record.ticks.end(),
-                                  [&](const Tick& tick) { return tick.latency_ns > period_ns; });
+/// What no clock and no system decides.
+nlohmann::ordered_json session_report(const TouchArguments& arguments, const TouchRecord& record,
+                                      const Stats& stats) {
   const auto unknown_sides = std::count_if(record.ticks.begin(), record.ticks.end(),
                                            [](const Tick& t) { return t.side == Side::kUnknown; });
   const Sorted<float> width(widths(record));
   const Sorted<std::uint32_t> refine(refine_ticks(record));
+  // The trace takes memory besides the budget.
+  const std::uint64_t trace_bytes = stats.budget_bytes - arguments.memory_bytes;
   return {{"file", arguments.file.string()},
           {"path", name_of(arguments.motion)},
+          {"seed", arguments.seed},
           {"rate_hz", arguments.rate_hz},
           {"policy", name_of(arguments.policy)},
           {"layers", layer_words(stats.layers)},
           {"ticks", record.ticks.size()},
-          {"late", late},
           {"degraded", std::count_if(record.ticks.begin(), record.ticks.end(), is_degraded)},
           {"unknown_sides", unknown_sides},
-          {"latency_us", in_microseconds(each(record, &Tick::latency_ns))},
-          {"query_us", in_microseconds(each(record, &Tick::query_ns))},
-          {"floor_us", in_microseconds(record.floor_ns)},
           {"refine_ticks_p50", refine.at(0.5)},
           {"refine_ticks_p99", refine.at(0.99)},
           {"refine_ticks_max", refine.at(1)},
           {"degraded_width_p50", width.at(0.5)},
           {"degraded_width_max", width.at(1)},
-          {"faults", record.usage.faults},
-          {"voluntary_switches", record.usage.voluntary_switches},
-          {"involuntary_switches", record.usage.involuntary_switches},
-          {"fifo", record.rights.fifo},
-          {"pinned", record.rights.pinned},
-          {"locked_bytes", stats.locked_bytes},
           {"pages_read", stats.pages_read},
           {"pages_evicted", stats.pages_evicted},
           {"quarantined_pages", stats.quarantined_pages},
@@ -100,9 +89,52 @@ nlohmann::ordered_json report_of(const TouchArguments& arguments, const TouchRec
           {"fetch_requests", stats.fetch_requests},
           {"positions_prefetched", stats.positions_prefetched},
           {"page_trace_dropped", stats.page_trace_dropped},
-          {"budget_bytes", stats.budget_bytes},
-          {"held_bytes", stats.arena_bytes + stats.table_bytes},
+          {"frames", stats.frames},
+          {"budget_bytes", stats.budget_bytes - trace_bytes},
+          {"held_bytes", stats.arena_bytes + stats.table_bytes - trace_bytes}};
+}
+
+/// What the machine decides.
+nlohmann::ordered_json machine_report(const TouchArguments& arguments, const TouchRecord& record,
+                                      const Stats& stats) {
+  const std::uint64_t period_ns = 1'000'000'000 / arguments.rate_hz;
+  const auto late = std::count_if(record.ticks.begin(), record.ticks.end(),
+                                  [&](const Tick& tick) { return tick.latency_ns > period_ns; });
+  return {{"late", late},
+          {"latency_us", in_microseconds(each(record, &Tick::latency_ns))},
+          {"query_us", in_microseconds(each(record, &Tick::query_ns))},
+          {"floor_us", in_microseconds(record.floor_ns)},
+          {"faults", record.usage.faults},
+          {"voluntary_switches", record.usage.voluntary_switches},
+          {"involuntary_switches", record.usage.involuntary_switches},
+          {"fifo", record.rights.fifo},
+          {"pinned", record.rights.pinned},
+          {"locked_bytes", stats.locked_bytes},
           {"peak_resident_bytes", peak_resident_bytes()}};
+}
+
+nlohmann::ordered_json prefetch_report(const PrefetchFigures& prefetch) {
+  return {{"accuracy", prefetch.accuracy()},
+          {"coverage", prefetch.coverage()},
+          {"timeliness", prefetch.timeliness()},
+          {"waste", prefetch.waste()},
+          {"read", prefetch.read},
+          {"used", prefetch.used},
+          {"late", prefetch.late},
+          {"missed", prefetch.missed},
+          {"evicted_unused", prefetch.evicted_unused}};
+}
+
+nlohmann::ordered_json report_of(const TouchArguments& arguments, const TouchRecord& record,
+                                 const Stats& stats, const PrefetchFigures* prefetch) {
+  nlohmann::ordered_json report = session_report(arguments, record, stats);
+  report["deterministic"] = arguments.is_deterministic;
+  if (arguments.is_deterministic)
+    report["read_latency_us"] = static_cast<double>(arguments.latency_ns) / 1e3;
+  else
+    report.update(machine_report(arguments, record, stats));
+  if (prefetch) report["prefetch"] = prefetch_report(*prefetch);
+  return report;
 }
 
 std::string row(const nlohmann::ordered_json& shares) {
@@ -114,39 +146,55 @@ std::string row(const nlohmann::ordered_json& shares) {
 
 const char* granted(bool yes) { return yes ? "granted" : "refused"; }
 
-}  // namespace
-
-std::string touch_json(const TouchArguments& arguments, const TouchRecord& record,
-                       const Model& model) {
-  return json_line(report_of(arguments, record, model));
-}
-
-std::string touch_words(const TouchArguments& arguments, const TouchRecord& record,
-                        const Model& model) {
-  const auto report = report_of(arguments, record, model);
+/// Lines about the machine.
+std::string machine_words(const TouchRecord& record, const nlohmann::ordered_json& report) {
   const auto number = [&](const char* key) { return report[key].get<std::uint64_t>(); };
-  std::string text =
-      fmt::format("{}: {}, {} ticks at {} Hz, {} held of a budget of {}\n", arguments.file.string(),
-                  name_of(arguments.motion), grouped_count(number("ticks")), arguments.rate_hz,
-                  short_bytes(number("held_bytes")), short_bytes(number("budget_bytes")));
-  text += fmt::format("late {}, degraded {} ({:.3f} %), exact again after {} ticks (p99)\n",
-                      grouped_count(number("late")), grouped_count(number("degraded")),
-                      100.0 * static_cast<double>(number("degraded")) /
-                          static_cast<double>(std::max<std::uint64_t>(1, number("ticks"))),
-                      number("refine_ticks_p99"));
-  text += "microseconds         p50       p99     p99.9    p99.99       max\n";
+  std::string text = "microseconds         p50       p99     p99.9    p99.99       max\n";
   text += "latency         " + row(report["latency_us"]) + '\n';
   text += "the query alone " + row(report["query_us"]) + '\n';
   text += "idle thread     " + row(report["floor_us"]) + '\n';
   text += fmt::format("real-time priority: {}; pinned to one processor: {}; memory locked: {}\n",
                       granted(record.rights.fifo), granted(record.rights.pinned),
                       granted(number("locked_bytes") > 0));
-  text +=
-      fmt::format("{} page faults, {} involuntary context switches; {} pages read, {} evicted\n",
-                  number("faults"), number("involuntary_switches"),
-                  grouped_count(number("pages_read")), grouped_count(number("pages_evicted")));
+  text += fmt::format("{} page faults, {} involuntary context switches; ", number("faults"),
+                      number("involuntary_switches"));
+  return text;
+}
+
+}  // namespace
+
+std::string touch_json(const TouchArguments& arguments, const TouchRecord& record,
+                       const Stats& stats, const PrefetchFigures* prefetch) {
+  return json_line(report_of(arguments, record, stats, prefetch));
+}
+
+std::string touch_words(const TouchArguments& arguments, const TouchRecord& record,
+                        const Stats& stats, const PrefetchFigures* prefetch) {
+  const auto report = report_of(arguments, record, stats, prefetch);
+  const auto number = [&](const char* key) { return report[key].get<std::uint64_t>(); };
+  std::string text =
+      fmt::format("{}: {}, {} ticks at {} Hz, {} held of a budget of {}\n", arguments.file.string(),
+                  name_of(arguments.motion), grouped_count(number("ticks")), arguments.rate_hz,
+                  short_bytes(number("held_bytes")), short_bytes(number("budget_bytes")));
+  if (arguments.is_deterministic)
+    text += fmt::format("simulated: a page takes {} us to read; seed {}\n",
+                        static_cast<double>(arguments.latency_ns) / 1e3, arguments.seed);
+  else
+    text += fmt::format("late {}, ", grouped_count(number("late")));
+  text += fmt::format("degraded {} ({:.3f} %), exact again after {} ticks (p99)\n",
+                      grouped_count(number("degraded")),
+                      100.0 * static_cast<double>(number("degraded")) /
+                          static_cast<double>(std::max<std::uint64_t>(1, number("ticks"))),
+                      number("refine_ticks_p99"));
+  if (!arguments.is_deterministic) text += machine_words(record, report);
+  text += fmt::format("{} pages read, {} evicted\n", grouped_count(number("pages_read")),
+                      grouped_count(number("pages_evicted")));
+  if (prefetch)
+    text += fmt::format(
+        "{} pages prefetched, of which {} used; {:.1f} % of the pages needed were there in time\n",
+        grouped_count(prefetch->read), grouped_count(prefetch->used), 100 * prefetch->coverage());
   if (!arguments.trace.empty())
-    text += fmt::format("{} accesses dropped from the trace\n", number("page_trace_dropped"));
+    text += fmt::format("{} records dropped from the trace\n", number("page_trace_dropped"));
   return text;
 }
 

@@ -1,70 +1,56 @@
 #include "tools/session/session_trace.h"
 
-#include <fmt/format.h>
-
-#include <array>
 #include <chrono>
-#include <iterator>
+#include <span>
+
+#include "planetree/stats.h"
 
 namespace planetree::tools {
-namespace {
 
-constexpr auto kPause = std::chrono::milliseconds(2);
+TraceHeader trace_header_of(const Model& model, const std::filesystem::path& file,
+                            std::uint64_t memory_bytes, EvictionPolicy policy) {
+  const ModelInfo& info = model.info();
+  const Stats stats = model.stats();
+  TraceHeader header;
+  header.model = file.filename().string();
+  header.content_id[0] = info.content_id[0];
+  header.content_id[1] = info.content_id[1];
+  header.memory_bytes = memory_bytes;
+  header.frames = stats.frames;
+  header.page_bytes = info.page_bytes;
+  header.pages = info.pages;
+  header.layers = stats.layers;
+  header.policy = policy;
+  return header;
+}
 
-/// Returns the word for a lookup, or null for any other record.
-const char* access_word(PageAccess::Event event) {
-  switch (event) {
-    case PageAccess::Event::kHit:
-      return "hit";
-    case PageAccess::Event::kPrefetched:
-      return "prefetched";
-    case PageAccess::Event::kMissed:
-    case PageAccess::Event::kLate:
-      return "missed";
-    default:
-      return nullptr;
+void TraceRecorder::drain() {
+  for (std::size_t count = drained_.size(); count == drained_.size();) {
+    count = model_.drain_page_trace(drained_);
+    const auto accesses = std::span(drained_).first(count);
+    for (const PageAccess& access : accesses) prefetch_.add(access);
+    if (written_) written_ = writer_.add(accesses);
   }
 }
 
-}  // namespace
+Result<void> TraceRecorder::finish(std::uint64_t ticks) {
+  drain();
+  if (written_) written_ = writer_.finish(ticks, model_.stats().page_trace_dropped);
+  return written_;
+}
 
-PageTraceDrain::PageTraceDrain(const Model& model)
-    : model_(model), thread_([this] {
+DrainThread::DrainThread(TraceRecorder& recorder)
+    : thread_([this, &recorder] {
+        constexpr auto kPause = std::chrono::milliseconds(2);
         while (!stopping_.load(std::memory_order_relaxed)) {
-          drain();
+          recorder.drain();
           std::this_thread::sleep_for(kPause);
         }
       }) {}
 
-PageTraceDrain::~PageTraceDrain() { finish(); }
-
-const std::vector<PageAccess>& PageTraceDrain::finish() {
-  if (thread_.joinable()) {
-    stopping_.store(true, std::memory_order_relaxed);
-    thread_.join();
-    drain();
-  }
-  return page_trace_;
-}
-
-void PageTraceDrain::drain() {
-  std::array<PageAccess, 1024> drained;
-  for (std::size_t got = drained.size(); got == drained.size();) {
-    got = model_.drain_page_trace(drained);
-    page_trace_.insert(page_trace_.end(), drained.begin(),
-                       drained.begin() + static_cast<std::ptrdiff_t>(got));
-  }
-}
-
-std::string touch_trace(std::span<const PageAccess> accesses) {
-  std::string text = "tick,probe,page,level,access\n";
-  for (const PageAccess& access : accesses) {
-    const char* const word = access_word(access.event);
-    if (word && !access.waits && access.query > 0)
-      fmt::format_to(std::back_inserter(text), "{},{},{},{},{}\n", access.query - 1, access.probe,
-                     access.page, access.level, word);
-  }
-  return text;
+DrainThread::~DrainThread() {
+  stopping_.store(true, std::memory_order_relaxed);
+  thread_.join();
 }
 
 }  // namespace planetree::tools

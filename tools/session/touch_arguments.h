@@ -19,9 +19,13 @@ struct TouchArguments {
   EvictionPolicy policy = OpenOptions{}.policy;  ///< how the page to evict is chosen
   TouchMotion motion = TouchMotion::kGlide;
   std::filesystem::path ticks;  ///< file for all ticks; empty: none
-  std::filesystem::path trace;  ///< file for all page accesses; empty: none
-  bool force = false;           ///< whether existing files may be replaced
-  bool cold = false;            ///< drop the file from the system's page cache first
+  std::filesystem::path trace;  ///< file for the page trace; empty: none
+  std::uint64_t seed = kTouchSeed;
+  bool latency_is_given = false;
+  bool is_deterministic = false;      ///< simulate disk and clock
+  std::uint64_t latency_ns = 85'000;  ///< of the simulated disk, for a page
+  bool force = false;                 ///< whether existing files may be replaced
+  bool cold = false;                  ///< drop the file from the system's page cache first
   bool no_io_uring = false;
   bool json = false;
 };

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <iterator>
 
 #include "planetree/probe.h"
 #include "tests/tools/cli/command_fixture.h"
+#include "tests/tools/trace_file/sample_trace.h"
 #include "tools/session/session_path.h"
 
 namespace planetree::tools {
@@ -120,27 +120,34 @@ TEST_F(SessionTest, WritesEveryTickOnRequest) {
   EXPECT_EQ(again.output, "");
 }
 
-TEST_F(SessionTest, TracesEveryPageAccessOnRequest) {
+TEST_F(SessionTest, WritesThePageTraceOnRequest) {
   const Outcome outcome = run({"touch", "tree.ptree", "--seconds", "1", "--rate", "200", "--trace",
-                               "pages.csv", "--ticks", "ticks.csv", "--json"});
+                               "pages.trace", "--policy", "lru", "--json"});
   ASSERT_EQ(outcome.status, kDone) << outcome.errors;
-  EXPECT_EQ(nlohmann::json::parse(outcome.output)["page_trace_dropped"], 0);
-  const std::vector<std::string> rows = lines_of(read_text("pages.csv"));
-  ASSERT_GT(rows.size(), 1u);
-  EXPECT_EQ(rows[0], "tick,probe,page,level,access");
-  unsigned last = 0, missed = 0;
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    unsigned tick = 0, probe = 0, page = 0, level = 0;
-    char access[16] = {};
-    ASSERT_EQ(
-        std::sscanf(rows[i].c_str(), "%u,%u,%u,%u,%15s", &tick, &probe, &page, &level, access), 5);
-    EXPECT_GE(tick, last);
-    EXPECT_LT(tick, 200u);
-    EXPECT_LT(page, entries_.size());
-    missed += std::string(access) == "missed";
-    last = tick;
+  const Json report = Json::parse(outcome.output);
+  EXPECT_EQ(report["page_trace_dropped"], 0);
+  const TraceContents trace = read_trace("pages.trace");
+  ASSERT_EQ(trace.error, "");
+  EXPECT_EQ(trace.header.model, "tree.ptree");
+  EXPECT_EQ(trace.header.rate_hz, 200u);
+  EXPECT_EQ(trace.header.policy, EvictionPolicy::kLru);
+  EXPECT_EQ(trace.header.frames, report["frames"]);
+  EXPECT_EQ(trace.header.memory_bytes, report["budget_bytes"]);
+  EXPECT_FALSE(trace.header.is_deterministic);
+  EXPECT_EQ(trace.totals.ticks, 200u);
+  EXPECT_EQ(trace.totals.lost, 0u);
+  std::uint64_t motions = 0, last = 0, read = 0;
+  for (const PageAccess& access : trace.records) {
+    EXPECT_LT(access.page, entries_.size());
+    read += access.event == PageAccess::Event::kInstalled;
+    if (access.event != PageAccess::Event::kMotion) continue;
+    // The first query precedes the ticks.
+    EXPECT_EQ(access.query, ++last);
+    ++motions;
   }
-  EXPECT_LT(missed, rows.size() - 1);
+  EXPECT_EQ(motions, 200u);
+  EXPECT_EQ(read, report["pages_read"]);
+  EXPECT_EQ(run({"touch", "tree.ptree", "--trace", "pages.trace"}).status, kCommandLineAtFault);
 }
 
 TEST_F(SessionTest, RefusesASessionWithoutTicks) {
