@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <system_error>
@@ -15,25 +17,62 @@
 #include "tools/cli/open_model.h"
 #include "tools/cli/progress.h"
 #include "tools/points/point_reader.h"
+#include "tools/session/session_trace.h"
+#include "tools/simulation/trace_budget.h"
+#include "tools/trace_file/trace_writer.h"
 
 namespace planetree::tools {
 namespace {
 
 constexpr std::size_t kChunkPoints = 65536;
+// With a trace: so few that the lookups of one chunk find room in it, and the trace can be drained
+// in between.
+constexpr std::size_t kTracedPoints = 16384;
+constexpr std::uint32_t kTraceWords = std::uint32_t{1} << 20;
 
 /// No progress bar where rows go to a terminal, because they would overwrite each other.
 bool shows_rows(const QueryArguments& arguments, const Console& console) {
   return arguments.output == "-" && console.output_is_terminal();
 }
 
+/// The trace file of a run of queries, and what drains the page trace to it.
+class QueryTrace {
+ public:
+  /// Opens the file, if the arguments name one.
+  static Result<std::unique_ptr<QueryTrace>> create(const QueryArguments& arguments) {
+    if (arguments.trace.empty()) return std::unique_ptr<QueryTrace>();
+    auto writer = TraceWriter::create(arguments.trace, arguments.force);
+    if (!writer) return writer.error();
+    return std::unique_ptr<QueryTrace>(new QueryTrace(std::move(*writer)));
+  }
+  Result<void> begin(const Model& model, const QueryArguments& arguments) {
+    TraceHeader header =
+        trace_header_of(model, arguments.file, arguments.memory_bytes, arguments.policy);
+    header.fetch_threads = static_cast<std::uint16_t>(OpenOptions().fetch_threads);
+    recorder_.emplace(model, writer_);
+    return writer_.begin(header);
+  }
+  void drain() { recorder_->drain(); }
+  Result<void> finish() { return recorder_->finish(0); }
+
+ private:
+  explicit QueryTrace(TraceWriter writer) : writer_(std::move(writer)) {}
+
+  TraceWriter writer_;
+  std::optional<TraceRecorder> recorder_;
+};
+
 /// Answers points. Its time begins with it, because the first points may come late.
 class QueryRun {
  public:
-  QueryRun(const QueryArguments& arguments, Console& console, const Model& model, Probe& probe)
+  /// trace  records the queries; null: nothing does
+  QueryRun(const QueryArguments& arguments, Console& console, const Model& model, Probe& probe,
+           QueryTrace* trace)
       : arguments_(arguments),
         console_(console),
         model_(model),
         probe_(probe),
+        trace_(trace),
         options_(arguments.options),
         form_(arguments.form),
         progress_(arguments.quiet || shows_rows(arguments, console), arguments.json) {
@@ -56,7 +95,7 @@ class QueryRun {
     report["pages_read"] = stats.pages_read;
     report["quarantined_pages"] = stats.quarantined_pages;
     report["waits_given_up"] = stats.waits_given_up;
-    report["budget_bytes"] = stats.budget_bytes;
+    report["budget_bytes"] = arguments_.memory_bytes;  // without the trace
     report["peak_resident_bytes"] = peak_resident_bytes();
     return json_line(report);
   }
@@ -76,8 +115,8 @@ class QueryRun {
   template <class Answer>
   int answer_all(PointReader& points, AnswerOutput& output) {
     AnswerWriter writer(output, form_);
-    std::vector<Vec3> queries(kChunkPoints);
-    std::vector<Answer> answers(kChunkPoints);
+    std::vector<Vec3> queries(trace_ ? kTracedPoints : kChunkPoints);
+    std::vector<Answer> answers(queries.size());
     Result<bool> wanted = true;
     while (wanted && *wanted) {
       const auto count = points.read(queries);
@@ -89,6 +128,7 @@ class QueryRun {
       const auto batch_queries = std::span(queries).first(*count);
       const auto batch_answers = std::span(answers).first(*count);
       run(batch_queries, batch_answers);
+      if (trace_) trace_->drain();
       if (tally_.points == 0) wanted = writer.begin(Answer());
       tally_.add<Answer>(batch_answers);
       if (wanted && *wanted)
@@ -116,6 +156,7 @@ class QueryRun {
   Console& console_;
   const Model& model_;
   Probe& probe_;
+  QueryTrace* const trace_;
   QueryOptions options_;
   AnswerForm form_;
   Progress progress_;
@@ -139,15 +180,30 @@ Result<void> check_output(const QueryArguments& arguments, const Console& consol
                     "a terminal cannot show raw numbers; use --output, or omit --format f64");
 }
 
-OpenOptions open_options(const QueryArguments& arguments) {
+Result<OpenOptions> open_options(const QueryArguments& arguments) {
   OpenOptions options;
   options.memory_budget_bytes = arguments.memory_bytes;
   options.layers = arguments.layers;
   options.policy = arguments.policy;
-  options.batch_threads = static_cast<unsigned>(arguments.threads);
+  options.batch_threads = batch_threads_of(static_cast<unsigned>(arguments.threads));
   options.wait_limit_ms = static_cast<unsigned>(arguments.wait_limit_ms);
   options.use_io_uring = !arguments.no_io_uring;
+  options.max_probes = 1;
+  if (arguments.trace.empty()) return options;
+  options.page_trace_capacity = kTraceWords;
+  const auto budget = budget_with_trace(arguments.file, options);
+  if (!budget) return budget.error();
+  options.memory_budget_bytes = *budget;
   return options;
+}
+
+int finish_trace(QueryTrace& trace, const QueryArguments& arguments, const Model& model,
+                 Console& console) {
+  const std::string name = arguments.trace.string();
+  if (const auto written = trace.finish(); !written) return console.fail(name, written.error());
+  if (const std::uint64_t dropped = model.stats().page_trace_dropped; dropped > 0)
+    console.warn(name, std::to_string(dropped) + " records found no room and are missing");
+  return kDone;
 }
 
 std::string output_name(const QueryArguments& arguments) {
@@ -160,17 +216,25 @@ int run_query(const QueryArguments& arguments, Console& console) {
   if (const auto checked = check_output(arguments, console); !checked)
     return console.fail(output_name(arguments), checked.error());
   const std::string file = arguments.file.string();
-  const auto model = open_model(arguments.file, open_options(arguments), console);
+  auto trace = QueryTrace::create(arguments);
+  if (!trace) return console.fail(arguments.trace.string(), trace.error());
+  const auto options = open_options(arguments);
+  if (!options) return console.fail(file, options.error());
+  const auto model = open_model(arguments.file, *options, console);
   if (!model) return console.fail(file, model.error());
   auto probe = Probe::create(*model);
   if (!probe) return console.fail(file, probe.error());
-  QueryRun query_run(arguments, console, *model, *probe);
+  if (*trace)
+    if (const auto begun = (*trace)->begin(*model, arguments); !begun)
+      return console.fail(arguments.trace.string(), begun.error());
+  QueryRun query_run(arguments, console, *model, *probe, trace->get());
   const auto points = open_points(arguments.points.string(), console.input(), arguments.columns);
   if (!points) return console.fail(points_name(arguments.points.string()), points.error());
   auto output = AnswerOutput::open(arguments.output, arguments.force, console);
   if (!output) return console.fail(output_name(arguments), output.error());
 
-  const int status = query_run.run(**points, *output);
+  int status = query_run.run(**points, *output);
+  if (*trace && status == kDone) status = finish_trace(**trace, arguments, *model, console);
   if (arguments.json) console.note(query_run.json_report());
   return console.finish(status);
 }

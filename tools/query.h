@@ -23,6 +23,7 @@ struct QueryArguments {
   std::filesystem::path points = "-";  ///< "-" is standard input
   ColumnChoice columns;                ///< of a text of points
   std::filesystem::path output = "-";  ///< "-" is standard output
+  std::filesystem::path trace;         ///< file for the page trace; empty: none
   bool force = false;                  ///< replace the output
   QueryOptions options;
   bool parts_are_given = false;       ///< else the parts that the layers tell are computed

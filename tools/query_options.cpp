@@ -69,7 +69,11 @@ void add_files(SubcommandOptions& subcommand, QueryArguments& arguments) {
                       "File to write; it appears only when it is complete, and not at all if a "
                       "point cannot be read; - is standard output"),
       "-");
-  subcommand.flag("--force", arguments.force, "Replace the output if it exists");
+  subcommand.path("--trace", "OUT.trace", arguments.trace,
+                  "Write the page trace of the queries here, in the format of "
+                  "format-spec/trace-v1/spec.md: page lookups, pages read and evicted. Its memory "
+                  "comes on top of --memory, and points are answered in smaller batches");
+  subcommand.flag("--force", arguments.force, "Replace the output and the trace if they exist");
 }
 
 void add_answers(SubcommandOptions& subcommand, QueryArguments& arguments) {
@@ -173,6 +177,7 @@ std::string complaint_of(const QueryArguments& arguments) {
   const std::uint32_t parts = arguments.options.parts;
   const bool has_both =
       (parts & kNormal) != 0 || (parts & (kDistance | kSide)) == (kDistance | kSide);
+  if (arguments.trace == "-") return "--trace needs a file; standard output is for the answers";
   return !arguments.form.signed_distance || has_both
              ? std::string()
              : "--signed needs the distance and the side; add both to --parts";

@@ -7,10 +7,14 @@
 
 namespace planetree::tools {
 
+unsigned batch_threads_of(unsigned wanted) {
+  return wanted != 0 ? wanted
+                     : std::min(storage::usable_processors(), OpenOptions::kMaxBatchThreads);
+}
+
 Result<Model> open_model(const std::filesystem::path& path, OpenOptions options, Console& console) {
   options.max_probes = 1;
-  if (options.batch_threads == 0)
-    options.batch_threads = std::min(storage::usable_processors(), OpenOptions::kMaxBatchThreads);
+  options.batch_threads = batch_threads_of(options.batch_threads);
   auto model = Model::open(path, options);
   if (model && model->stats().header_copy_damaged)
     console.warn(path.string(),

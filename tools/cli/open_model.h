@@ -11,6 +11,9 @@
 
 namespace planetree::tools {
 
+/// The number of batch threads: `wanted`, or one for each processor if that is 0.
+unsigned batch_threads_of(unsigned wanted);
+
 /// Opens a model with one probe. Warns if one of the file's headers is damaged.
 ///
 /// options  max_probes is ignored; batch_threads may be 0, which means one for each processor

@@ -71,7 +71,7 @@ Result<void> SimulatedSession::open_model() {
       state.serving().arena.fetch_requests,
       std::make_unique<query::QueryingFetchProbe>(state.serving(), std::move(*reader)), 0, 1,
       &simulated_time, never_);
-  query_options_ = {.parts = parts_told(*model_), .wait = Wait::kNever};
+  query_options_ = {.parts = parts_told(*model_), .wait = options_.wait};
   drained_.resize(4096);
   return {};
 }
@@ -96,12 +96,7 @@ SimulatedRecord SimulatedSession::run(std::span<const Vec3> path, const Sink& si
   // One query before the ticks, as in real sessions.
   if (!path.empty()) (void)probe_->closest_point(path.front(), query_options_);
   disk_.on_read([this] { wait_for_disk(); });
-  while (record_.ticks.size() < path.size()) {
-    if (due_ns(record_.ticks.size()) <= next_look_ns_)
-      run_tick();
-    else
-      let_worker_act();
-  }
+  run_ticks();
   disk_.on_read({});
   drain();
   const std::uint64_t served = record_.stats.fetch_requests_served;
@@ -111,6 +106,15 @@ SimulatedRecord SimulatedSession::run(std::span<const Vec3> path, const Sink& si
   record_.stats.positions_prefetched = prefetched;
   running_clock = outer_clock;
   return std::move(record_);
+}
+
+void SimulatedSession::run_ticks() {
+  while (record_.ticks.size() < path_.size()) {
+    if (options_.wait == Wait::kForPages || due_ns(record_.ticks.size()) <= next_look_ns_)
+      run_tick();
+    else
+      let_worker_act();
+  }
 }
 
 std::uint64_t SimulatedSession::due_ns(std::size_t tick) const {
@@ -138,10 +142,11 @@ void SimulatedSession::run_ticks_before(std::uint64_t time_ns) {
   while (record_.ticks.size() < path_.size() && due_ns(record_.ticks.size()) < time_ns) run_tick();
 }
 
-// A page that the worker reads arrives after the latency.
+// A page arrives after the latency. Ticks are due while the worker waits, but not while a query
+// does.
 void SimulatedSession::wait_for_disk() {
   const std::uint64_t arrival_ns = clock_.now_ns() + options_.latency_ns;
-  run_ticks_before(arrival_ns);
+  if (options_.wait == Wait::kNever) run_ticks_before(arrival_ns);
   clock_.pass_until(arrival_ns);
 }
 

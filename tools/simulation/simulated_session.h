@@ -35,6 +35,9 @@ struct SimulationOptions {
   std::uint32_t rate_hz = 1000;       ///< ticks per second, 1 or more
   std::uint64_t latency_ns = 85'000;  ///< time in which the disk reads a page
   bool tells_motion = true;           ///< call Probe::motion at each tick
+  /// kForPages: the queries wait for their pages, and there is no fetch thread. No answer
+  /// lacks a page, and pages are read because queries miss them alone.
+  Wait wait = Wait::kNever;
 };
 
 /// What a simulated session comes to.
@@ -80,6 +83,7 @@ class SimulatedSession {
   void run_tick();
   void run_ticks_before(std::uint64_t time_ns);
   void begin_event(std::uint64_t time_ns);
+  void run_ticks();
   void let_worker_act();
   void wait_for_disk();
   void drain();
