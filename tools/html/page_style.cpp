@@ -8,12 +8,14 @@ const char* const kPageStyle = R"css(
 :root {
   --page: #ffffff; --raised: #ffffff; --band: #f3f5f7; --text: #1c2128; --quiet: #57606a;
   --line: #d5dae0; --grid: #e6e9ed; --c0: #0b62c4; --c1: #b04a00; --c2: #167246;
+  --c3: #8a3ab9; --c4: #b3205a; --c5: #75590a;
   --muted: #8b939c; --lit: #fff3c4; --shadow: 0 2px 10px rgb(0 0 0 / 18%);
 }
 @media (prefers-color-scheme: dark) {
   :root {
     --page: #15181c; --raised: #22272e; --band: #1d2126; --text: #e4e8ec; --quiet: #a1abb6;
     --line: #3d444d; --grid: #2a2f36; --c0: #6cb2ff; --c1: #f2a15a; --c2: #62cf93;
+    --c3: #c99bf0; --c4: #f58ab0; --c5: #d8c05a;
     --muted: #7d8690; --lit: #4a3f12; --shadow: 0 2px 12px rgb(0 0 0 / 60%);
   }
 }
@@ -56,10 +58,15 @@ svg text { font: 11px system-ui, -apple-system, "Segoe UI", "Noto Sans", "DejaVu
 .grid { stroke: var(--grid); fill: none; }
 .frame, .mark { stroke: var(--muted); fill: none; }
 .lane { fill: var(--band); }
+.line { fill: none; stroke: currentColor; stroke-width: 1.4; stroke-opacity: 0.6; }
+.cell { fill: currentColor; }
 .steps { fill: none; stroke: var(--quiet); stroke-width: 1.3; stroke-opacity: 0.55; }
-.point { color: var(--c0); }
-.point.c1 { color: var(--c1); }
-.point.c2 { color: var(--c2); }
+.point, .line, .cell { color: var(--c0); }
+.point.c1, .line.c1 { color: var(--c1); }
+.point.c2, .line.c2 { color: var(--c2); }
+.point.c3, .line.c3 { color: var(--c3); }
+.point.c4, .line.c4 { color: var(--c4); }
+.point.c5, .line.c5 { color: var(--c5); }
 .point.note { color: var(--quiet); }
 .point.muted { color: var(--muted); }
 .shape { fill: currentColor; stroke: var(--page); stroke-width: 1.2; }

@@ -91,6 +91,22 @@ PlotAxis PlotAxis::logarithmic(std::string title, std::span<const double> values
   return axis;
 }
 
+PlotAxis PlotAxis::linear(std::string title, double most, TickText text) {
+  PlotAxis axis;
+  axis.title_ = std::move(title);
+  // The widest of 1, 2 and 5 times a power of ten that makes enough ticks.
+  const double span = most > 0 ? most : 1;
+  double step = std::pow(10.0, std::floor(std::log10(span)));
+  for (const double part : {0.5, 0.2, 0.1}) {
+    if (span / step >= kMinTicks - 1) break;
+    step = part * std::pow(10.0, std::floor(std::log10(span)));
+  }
+  const int ticks = static_cast<int>(std::ceil(span / step * (1 - kSlack)));
+  axis.upper_ = ticks * step;
+  for (int tick = 0; tick <= ticks; ++tick) axis.add_tick(tick * step, text(tick * step));
+  return axis;
+}
+
 PlotAxis PlotAxis::percent(std::string title) {
   PlotAxis axis;
   axis.title_ = std::move(title);

@@ -27,6 +27,10 @@ class PlotAxis {
   /// least   > 0
   static PlotAxis logarithmic(std::string title, std::span<const double> values, double least,
                               TickText text);
+  /// From 0 to a tick that is not below `most`.
+  ///
+  /// most  finite and >= 0
+  static PlotAxis linear(std::string title, double most, TickText text);
   /// From 0 to 1, with ticks in percent.
   static PlotAxis percent(std::string title);
   /// Ticks at the values 0, 1, 2 and so on. There is at least one.

@@ -37,6 +37,7 @@ class Drawing {
         "\n",
         frame.left, frame.top, frame.bottom, frame.right);
     if (plot_.has_steps) add_steps();
+    if (plot_.has_lines) add_lines();
     add_points();
     add_labels();
     return text_ + "</svg>\n";
@@ -134,6 +135,19 @@ class Drawing {
     add(R"(H{:.1f}"/>)"
         "\n",
         layout_.frame.right);
+  }
+
+  void add_lines() {
+    for (std::size_t series = 0; series < plot_.series.size(); ++series) {
+      char command = 'M';
+      for (std::size_t i = 0; i < plot_.points.size(); ++i) {
+        if (plot_.points[i].series != series) continue;
+        if (command == 'M') add(R"(<path class="line c{}" d=")", series % kPlotColours);
+        add("{}{:.1f} {:.1f}", command, layout_.points[i].x, layout_.points[i].y);
+        command = 'L';
+      }
+      if (command == 'L') text_ += "\"/>\n";
+    }
   }
 
   /// Those that are not muted come last, on top of the others.

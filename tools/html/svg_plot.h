@@ -15,7 +15,7 @@ struct PlotSeries {
   std::string name;
   PlotShape shape = PlotShape::kCircle;
 };
-inline constexpr std::size_t kPlotColours = 3;
+inline constexpr std::size_t kPlotColours = 6;
 
 /// A point of a plot.
 struct PlotPoint {
@@ -39,6 +39,7 @@ struct SvgPlot {
   std::vector<PlotSeries> series;
   std::vector<PlotPoint> points;
   bool has_steps = false;   ///< whether steps join the points that are not muted
+  bool has_lines = false;   ///< whether lines join the points of each series, in their order
   std::string muted_note;   ///< what grey means; empty if nothing is grey
   std::string hollow_note;  ///< what outlines mean; empty if there are none
 };

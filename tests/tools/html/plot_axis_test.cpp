@@ -83,6 +83,19 @@ TEST(PlotAxis, ShowsAnotherUnitAtTheSamePlaces) {
     }
 }
 
+TEST(PlotAxis, CanBeLinearFromZero) {
+  EXPECT_EQ(texts_of(PlotAxis::linear("seconds", 3.2, short_text)),
+            (std::vector<std::string>{"0", "1", "2", "3", "4"}));
+  for (const double most : {0.0, 1e-6, 0.99, 1.0, 1.01, 4.9, 5.1, 9.99, 60.0, 12345.0}) {
+    const PlotAxis axis = PlotAxis::linear("value", most, short_text);
+    EXPECT_EQ(axis.place(0), 0);
+    EXPECT_LE(axis.place(most), 1 + 1e-9) << most;
+    EXPECT_GE(axis.ticks().size(), 3u) << most;
+    EXPECT_LE(axis.ticks().size(), 11u) << most;
+    EXPECT_NEAR(axis.ticks().back().place, 1, 1e-9);
+  }
+}
+
 TEST(PlotAxis, CanBeSharesOrNames) {
   const PlotAxis percent = PlotAxis::percent("share");
   EXPECT_EQ(percent.ticks().back().text, "100 %");

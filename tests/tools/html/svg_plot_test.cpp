@@ -73,6 +73,17 @@ TEST(SvgPlot, JoinsPointsThatAreNotGreyBySteps) {
   EXPECT_EQ(count_of(steps, "H"), 3) << "the last leads to the end of the axis";
 }
 
+TEST(SvgPlot, JoinsThePointsOfASeriesByLines) {
+  SvgPlot plot = sample_plot();
+  EXPECT_EQ(count_of(plot_html(plot), "class=\"line"), 0);
+  plot.has_lines = true;
+  const std::string html = plot_html(plot);
+  EXPECT_EQ(count_of(html, "class=\"line c"), 2) << "one a series";
+  const std::size_t at = html.find("class=\"line c1\"");
+  const std::string line = html.substr(at, html.find("/>", at) - at);
+  EXPECT_EQ(count_of(line, "L"), 2);
+}
+
 TEST(SvgPlot, EscapesItsTexts) {
   SvgPlot plot = sample_plot();
   plot.title = plot.description = plot.muted_note = plot.points[0].label = "<a&\">";
