@@ -20,6 +20,7 @@
 #include "tools/query.h"
 #include "tools/touch.h"
 #include "tools/trade.h"
+#include "tools/tune.h"
 #include "tools/verify.h"
 
 namespace planetree::tools {
@@ -48,6 +49,7 @@ CommandLine::CommandLine(Console& console)
   add_verify(app, console, action);
   add_touch(app, console, action);
   add_trade(app, console, action);
+  add_tune(app, console, action);
   app.set_version_flag("--version", kVersion, "Show the version");
 }
 

@@ -46,6 +46,17 @@ SubcommandOptions::Option SubcommandOptions::path(const std::string& name, const
       ->check(CLI::Validator(accept, "", kPathCheck));
 }
 
+SubcommandOptions::Option SubcommandOptions::paths(const std::string& name, const char* type,
+                                                   std::vector<std::filesystem::path>& values,
+                                                   const std::string& help) {
+  const auto accept = [](std::string&) { return std::string(); };
+  return subcommand_.add_option(name, values, help)
+      ->type_name(type)
+      ->expected(1, CLI::detail::expected_max_vector_size)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->check(CLI::Validator(accept, "", kPathCheck));
+}
+
 SubcommandOptions::Option SubcommandOptions::flag(const std::string& name, bool& value,
                                                   const std::string& help) {
   return subcommand_.add_flag(name, value, help);

@@ -32,6 +32,9 @@ class SubcommandOptions {
   /// an argument.
   Option path(const std::string& name, const char* type, std::filesystem::path& value,
               const std::string& help);
+  /// One or more paths. A name without dashes declares arguments.
+  Option paths(const std::string& name, const char* type,
+               std::vector<std::filesystem::path>& values, const std::string& help);
   /// A flag without a value.
   Option flag(const std::string& name, bool& value, const std::string& help);
 
