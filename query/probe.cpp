@@ -114,12 +114,12 @@ void ProbeState::fetch_pages(const Vec3& query, const QueryOptions& options, Fet
                              const std::atomic<bool>& stop) noexcept {
   assert(options.wait == Wait::kForPages && options.max_work != QueryOptions::kNoLimit);
   if (!is_valid(query, options)) return;
-  coherence_.follows_motion = reason == FetchReason::kMotion;
+  coherence_.is_on = coherence_.follows_motion = reason == FetchReason::kMotion;
   PageAccessor accessor(reader_, options.wait, model_.fetcher_terms, &stop);
   if (trace_) {
-    trace_->begin_query(reason == FetchReason::kMissed ? PageAccess::Query::kFetch
-                                                       : PageAccess::Query::kPrefetch,
-                        options.wait);
+    trace_->begin_query(
+        reason == FetchReason::kMissed ? PageAccess::Query::kFetch : PageAccess::Query::kPrefetch,
+        options.wait);
     accessor.set_trace(trace_);
   }
   ClosestPoint unused = unanswered(Status::kExact);

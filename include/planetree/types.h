@@ -148,6 +148,8 @@ struct QueryOptions {
   /// tree or of a grey cell of the mask is one unit. Distances, crossing tests, solid angles, exact
   /// signs and the faces at an edge or a vertex are charged too, so that the limit bounds the time
   /// of a query whatever the file holds. If it is reached, the answer is kDegraded. 0 is allowed.
+  /// A single query starts near the last answer of its probe, so that an answer that is not exact
+  /// depends on the probe's earlier queries. An answer of a batch does not.
   /// The distance search uses the work first. The search for the side gets what is left, then the
   /// normal. kNoLimit, the default, means no limit for
   /// Wait::kForPages and kRealTimeWork for Wait::kNever. For a real-time query that is practically

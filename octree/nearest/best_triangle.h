@@ -23,6 +23,8 @@ class BestTriangle {
   }
 
   bool found() const { return triangle_ != kNoTriangle; }
+  /// Whether some surface is known to be within reach().
+  bool is_limited() const { return reach_ < max_reach_; }
   std::uint64_t triangle() const { return triangle_; }
   const Triangle& corners() const { return corners_; }
   bool is_height_field() const { return is_height_field_; }
@@ -60,10 +62,11 @@ class BestTriangle {
   }
 
   /// Lowers reach() to `distance`, which some surface is within. An allowed error is left to the
-  /// triangles, so that an answer has one.
+  /// triangles if an answer must have one.
   void limit(double distance) {
     if (!(distance < reach_)) return;
     reach_ = distance;
+    bounded_ = !limits_.needs_triangle();
     refresh();
   }
 
@@ -126,7 +129,7 @@ class BestTriangle {
   Triangle corners_{Point::Zero(), Point::Zero(), Point::Zero()};
   TriangleResult finding_;
   double reach_ = max_reach_;
-  bool bounded_ = false;   // reach_ is the distance of a triangle
+  bool bounded_ = false;   // reach_ is the distance of a triangle or of another point that serves
   bool is_stale_ = false;  // threshold_ is yet to be lowered by max_error
   float threshold_ = 0;
   float exact_threshold_ = 0;

@@ -105,7 +105,7 @@ HWY_EXPORT(nearest_on_target);
 static NearestAnswer nearest_in_tree(const TreeInfo& tree, const Point& query,
                                      const NearestLimits& limits, const PageReader& pages,
                                      TraversalStats& work, CoherenceCache* coherence_cache) {
-  const bool any_way = limits.known || limits.allow_any_way();
+  const bool any_way = limits.may_depend_on_pages();
   return HWY_DYNAMIC_DISPATCH(nearest_on_target)(tree, query, limits, pages, work,
                                                  any_way ? coherence_cache : nullptr);
 }

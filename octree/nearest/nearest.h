@@ -51,14 +51,17 @@ struct NearestLimits {
   /// error it depends on that order. The order must then not depend on which pages are resident,
   /// and may depend on earlier queries only if `known` is set.
   bool allow_any_way() const { return max_error == 0 && has_unlimited_work(); }
+  /// Whether the order of visits may depend on which pages are resident.
+  bool may_depend_on_pages() const { return known || allow_any_way(); }
   /// Whether the work may be spent before any triangle is found.
   bool has_little_work() const { return max_work <= 1024; }
   /// Whether the coarse field is likely to answer where it has this estimate.
   bool may_be_answered_by(const CoarseField::Estimate& estimate) const {
     return estimate.width <= max_error &&
-           (max_field_share == std::numeric_limits<double>::infinity() ||
-            estimate.width <= max_field_share * estimate.lower);
+           (!needs_triangle() || estimate.width <= max_field_share * estimate.lower);
   }
+  /// Whether an answer within an error must have a triangle wherever the field does not answer it.
+  bool needs_triangle() const { return max_field_share < std::numeric_limits<double>::infinity(); }
   bool has_unlimited_work() const { return max_work == std::numeric_limits<std::uint32_t>::max(); }
 };
 

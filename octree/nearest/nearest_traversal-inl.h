@@ -43,7 +43,7 @@ class NearestTraversal {
         // At most the number of records: in a forged tree links could lead in circles.
         work_left_(work_limit, tree.record_count),
         work_(work),
-        release_hook_(limits.allow_any_way() ? pages.release_hook : nullptr),
+        release_hook_(limits.may_depend_on_pages() ? pages.release_hook : nullptr),
         records_(tree, pages),
         best_(float_query_, limits_, tree.span(query)) {
     if (release_hook_) *release_hook_ = {this, &on_release};
@@ -190,7 +190,7 @@ class NearestTraversal {
       far ? prefetch<kNodeSlots>(nearest, group, near)
           : prefetch<kNearNodeSlots>(nearest, group, near);
     }
-    if (limits_.has_little_work() && near > 0 && !best_.found())
+    if (limits_.has_little_work() && near > 0 && !best_.is_limited())
       skipped_.bound_above(child_box(node, children.child()), query_ - tree_.centre);
     const bool is_next = !far && near > 0;
     frontier_.push(is_next ? 1 : 0, near, page);

@@ -47,6 +47,7 @@ class ClosestPointQuery {
         options_(options),
         max_units_(max_units(options)),
         remember_(may_use_coherence(coherence_, options)),
+        remember_inexact_(may_remember_inexact(coherence_, options)),
         side_means_(model_.side_means(options.side_rule)),
         needs_front_(needs_front(options)),
         scaled_(model_.scale.in(query)),
@@ -147,7 +148,7 @@ class ClosestPointQuery {
 
   octree::NearestAnswer search_nearest(octree::NearestLimits& limits) {
     limits.field = &model_.field;
-    if (options_.wait == Wait::kNever && coherence_.is_on) limits.known = &coherence_.last_nearest;
+    if (remember_inexact_) limits.known = &coherence_.last_nearest;
     return octree::nearest(model_.tree, point_, limits, pages_, work_,
                            coherence_.is_on ? &coherence_.nearest : nullptr);
   }
@@ -155,7 +156,7 @@ class ClosestPointQuery {
   void report_nearest(octree::NearestAnswer& nearest) {
     stop_prefetch();
     // The answer of a far query has the sample, which is one vertex of a triangle.
-    if (!far_ && options_.wait == Wait::kNever && nearest.triangle != kNoTriangle)
+    if (!far_ && remember_inexact_ && nearest.triangle != kNoTriangle)
       coherence_.last_nearest = nearest;
     incomplete_ = nearest.status == Status::kDegraded;
     account_for_missing_surface(model_.tree, point_, clearance(model_, point_, far_),
@@ -312,6 +313,7 @@ class ClosestPointQuery {
   const QueryOptions& options_;
   const std::uint64_t max_units_;
   const bool remember_;
+  const bool remember_inexact_;
   const SideMeans side_means_;  // what decides the side
   const bool needs_front_;
   const octree::Point scaled_;  // the query in the model frame

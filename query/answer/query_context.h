@@ -19,7 +19,8 @@ namespace planetree::query {
 /// allocates nothing. One thread at a time may use it. Exact answers have the same bits with and
 /// without it; so have all answers of blocking queries of a batch.
 struct Coherence {
-  /// If false, every query starts from the root, as the first one does. For tests.
+  /// If false, every query starts from the root, as the first one does. For the queries of fetch
+  /// threads that must read all pages on the way, and for tests.
   bool is_on = true;
   /// True while a fetch thread prefetches for a moving probe. Its queries find sides as those of
   /// the moving probe do: by the coherence, where that tells the side, so that no page of the mask
@@ -27,7 +28,7 @@ struct Coherence {
   bool follows_motion = false;
 
   octree::CoherenceCache nearest;      ///< subtrees and triangles near the last query
-  octree::NearestAnswer last_nearest;  ///< last real-time answer; used if pages are missing
+  octree::NearestAnswer last_nearest;  ///< last answer that may serve where pages or work lack
   SideCache side;                      ///< last point of known side; last mask cell
   bool side_grid_answered = true;      ///< the last lookup in the side grid found a side
   bool searched_side = false;          ///< the last closest-point query searched for the side
@@ -75,13 +76,21 @@ inline std::uint64_t max_units(const QueryOptions& options) {
   return options.max_work == QueryOptions::kNoLimit ? octree::WorkLimit::kNone : options.max_work;
 }
 
+/// Returns whether answers that are not exact may depend on earlier queries: those of real-time
+/// queries, which depend on the resident pages in any case, and those of limited work, which spend
+/// less of it where they start near the last answer. Not in a batch: its order is not the caller's.
+inline bool may_remember_inexact(const Coherence& coherence, const QueryOptions& options) {
+  return coherence.is_on && !coherence.follows_motion &&
+         (options.wait == Wait::kNever ||
+          (options.max_work != QueryOptions::kNoLimit &&
+           coherence.nearest.course() == octree::CoherenceCache::Course::kPath));
+}
+
 /// Returns whether a query may use the coherence. The answer of a query of limited work depends on
-/// which nodes it visits first, so a blocking query of limited work starts from the root. The
-/// answer of a real-time query depends on the resident pages in any case, and nobody uses that of a
-/// prefetch.
+/// which nodes it visits first. Nobody uses the answer of a prefetch.
 inline bool may_use_coherence(const Coherence& coherence, const QueryOptions& options) {
-  return coherence.is_on && (options.wait == Wait::kNever || coherence.follows_motion ||
-                             options.max_work == QueryOptions::kNoLimit);
+  return coherence.is_on && (options.max_work == QueryOptions::kNoLimit ||
+                             coherence.follows_motion || may_remember_inexact(coherence, options));
 }
 
 /// Returns the parts to compute: a normal needs the others.

@@ -55,20 +55,49 @@ TEST_P(CoherenceTest, ChangesNoBitOfAnExactAnswer) {
 }
 
 // Page lookups of a path of queries, by a probe of its own.
-std::uint64_t lookups(ModelState& model, double max_error) {
+std::uint64_t lookups(ModelState& model, QueryOptions options) {
+  options.parts = kDistance;
   const auto probe = ProbeState::create(model.serving(), *model.claim_reader());
   const Stats before = model.stats();
-  for (const Vec3& query : path_and_jumps())
-    probe->closest_point(query, {.parts = kDistance, .max_error = max_error});
+  for (const Vec3& query : path_and_jumps()) probe->closest_point(query, options);
   const Stats after = model.stats();
   return after.page_hits + after.page_misses - before.page_hits - before.page_misses;
 }
 
 TEST_P(CoherenceTest, AnAllowedErrorCostsNoMoreThanNone) {
-  lookups(*model_, 0);
-  const std::uint64_t exact = lookups(*model_, 0);
+  lookups(*model_, {});
+  const std::uint64_t exact = lookups(*model_, {});
   for (const double error : {1e-5, 1e-3, 1e-2, 1e-1})
-    EXPECT_LE(lookups(*model_, error), exact * 102 / 100) << error;
+    EXPECT_LE(lookups(*model_, {.max_error = error}), exact * 102 / 100) << error;
+}
+
+TEST_P(CoherenceTest, ALimitOfWorkCostsNoMoreThanNone) {
+  lookups(*model_, {});
+  const std::uint64_t exact = lookups(*model_, {});
+  for (const std::uint32_t work : {64U, 512U, 4096U})
+    EXPECT_LE(lookups(*model_, {.max_work = work}), exact * 102 / 100) << work;
+}
+
+// What limited work finds depends on the last answer, but its intervals hold.
+TEST_P(CoherenceTest, LeavesLimitedAnswersInTheirIntervals) {
+  const auto kept = probe(), fresh = probe();
+  fresh->coherence().is_on = false;
+  int degraded = 0;
+  std::uint32_t at = 0;
+  for (const Vec3& query : path_and_jumps()) {
+    const ClosestPoint exact = fresh->closest_point(query, {});
+    const ClosestPoint answer = kept->closest_point(query, {.max_work = 1U << (at++ % 10)});
+    EXPECT_LE(answer.lower, exact.upper);
+    EXPECT_GE(answer.upper, exact.lower);
+    EXPECT_TRUE(answer.side == exact.side || answer.side == Side::kUnknown);
+    if (answer.status == Status::kExact) {
+      EXPECT_EQ(bits_of(answer), bits_of(exact));
+    } else {
+      ++degraded;
+      EXPECT_EQ(answer.status, Status::kDegraded);
+    }
+  }
+  EXPECT_GT(degraded, 20);
 }
 
 TEST_P(CoherenceTest, LeavesAllowedErrorsInTheirIntervals) {
