@@ -4,9 +4,9 @@
 
 #include "octree/builder/mesh/stream/mesh_text.h"
 #include "tools/cli/layer_option.h"
+#include "tools/cli/parts_option.h"
 #include "tools/cli/policy_option.h"
 #include "tools/cli/subcommand_options.h"
-#include "tools/points/line_fields.h"
 #include "tools/query.h"
 
 namespace planetree::tools {
@@ -20,26 +20,6 @@ struct Options {
   std::uint64_t max_work = QueryOptions::kNoLimit;
   bool never_wait = false;
 };
-
-/// The parts in a list of their words; 0 if one is none.
-std::uint32_t parts_of(const std::string& text) {
-  static const std::map<std::string_view, std::uint32_t> parts = {
-      {"distance", kDistance}, {"side", kSide}, {"normal", kNormal}};
-  std::uint32_t all = 0;
-  for (LineFields words(text, Separator::kComma); words.next();) {
-    const auto part = parts.find(words.field());
-    if (part == parts.end()) return 0;
-    all |= part->second;
-  }
-  return all;
-}
-
-std::string parts_complaint(const std::string& text) {
-  if (parts_of(text) != 0) return {};
-  return "'" + octree::printable(text) +
-         "' is not a list of parts; give distance, side, normal or "
-         "several of them, with commas";
-}
 
 std::string columns_complaint(const std::string& text) {
   const auto columns = ColumnChoice::parse(text);
@@ -87,17 +67,14 @@ void add_answers(SubcommandOptions& subcommand, QueryArguments& arguments) {
       "--signed", form.signed_distance,
       "Report the distance as signed_distance: negative inside, NaN where the side is unknown. The "
       "interval of lower and upper is that of the distance without its sign");
-  const auto parts = subcommand.text(
-      "--parts", "PARTS", parts_complaint,
-      [&arguments](const std::string& text) {
-        arguments.options.parts = parts_of(text);
+  const auto parts = add_parts(
+      subcommand,
+      [&arguments](std::uint32_t given) {
+        arguments.options.parts = given;
         arguments.parts_are_given = true;
       },
-      "Compute only these parts, to save time: distance (with interval, nearest point, triangle "
-      "and feature), side, normal (needs the others and includes them), with commas between them. "
       "The other columns of csv are empty, the other keys of jsonl are left out, the other numbers "
       "of f64 are NaN");
-  subcommand.default_text(parts, "distance,side,normal, or what --layers leaves of them");
   static const std::map<std::string, SideRule> rules = {{"solid", SideRule::kSolid},
                                                         {"surface", SideRule::kSurface}};
   subcommand.default_text(

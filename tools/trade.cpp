@@ -12,6 +12,7 @@
 #include "tools/cli/layer_option.h"
 #include "tools/cli/open_model.h"
 #include "tools/cli/output_file.h"
+#include "tools/cli/parts_option.h"
 #include "tools/cli/progress.h"
 #include "tools/cli/subcommand_options.h"
 #include "tools/points/point_reader.h"
@@ -101,7 +102,7 @@ class Trade {
     record_.triangles = info.triangles;
     record_.file_layers = info.layers;
     record_.layers = model.stats().layers;
-    record_.parts = parts_told(model);
+    record_.parts = arguments_.parts & parts_told(model);
     record_.diagonal = core_diagonal(info);
     record_.median_edge = *edge;
     record_.whole_bytes = model.stats().table_bytes + std::uint64_t{info.pages} * info.page_bytes;
@@ -187,6 +188,9 @@ void add_trade(CLI::App& app, Console& console, std::function<int()>& action) {
   subcommand.default_text(subcommand.bytes("--memory", options->memory_bytes,
                                            "Maximum memory of queries that wait for pages"),
                           "256M");
+  add_parts(
+      subcommand, [options](std::uint32_t parts) { options->parts = parts; },
+      "Answers without the normal need no triangle, so that an allowed error saves more");
   add_open_layers(subcommand, options->layers);
   const auto html = subcommand.path(
       "--html", "OUT.html", options->html,
@@ -198,6 +202,8 @@ void add_trade(CLI::App& app, Console& console, std::function<int()>& action) {
   subcommand.flag("--quiet", options->quiet, "Show no progress");
   subcommand.on_given([options, &console, &action]() -> std::string {
     if (options->count == 0) return "--count 0 leaves nothing to measure; give 1 or more";
+    if ((options->parts & (kDistance | kNormal)) == 0)
+      return "--parts side leaves no distance to measure; add distance";
     action = [options, &console] { return run_trade(*options, console); };
     return {};
   });

@@ -166,8 +166,9 @@ struct QueryOptions {
 struct ClosestPoint {
   /// Distance to `point`, model units, >= 0. For kExact, lower <= distance <= upper. For kDegraded,
   /// `distance` may be greater than `upper`, because `upper` may come from the box of a subtree
-  /// that the query skipped. If no triangle was found, it equals `upper`. It is infinite if the
-  /// status is kBeyondMaxDistance or kBadQuery or if no distance was requested.
+  /// that the query skipped; with the coarse field it rarely is. If no triangle was found, it
+  /// equals `upper`. It is infinite if the status is kBeyondMaxDistance or kBadQuery or if no
+  /// distance was requested.
   double distance = 0;
   /// Certified lower bound of the true distance, model units, >= 0. It is max_distance if the
   /// status is kBeyondMaxDistance. It is 0 if the status is kBadQuery or no distance was requested.
@@ -197,8 +198,8 @@ struct ClosestPoint {
   ///   winding number of the rest of the surface is negative.
   ///
   /// Without a triangle it is the direction between `point` and the query, out of the solid, if the
-  /// status is kWithinError. It is (0, 0, 1) if no normal was requested, for other answers without
-  /// a triangle, and if no face at the nearest point has area.
+  /// status is kWithinError or kDegraded. It is (0, 0, 1) if no normal was requested, if there is
+  /// no point, and if no face at the nearest point has area.
   Vec3 normal{0, 0, 1};
   /// Index of the nearest triangle: its position in the input, from 0. A polygon of n corners
   /// counts as n - 2 triangles. Skipped records count too. If several triangles are equally near as

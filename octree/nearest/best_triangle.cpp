@@ -102,21 +102,20 @@ void narrow(const Point& query, const NearestLimits& limits, NearestAnswer& answ
   if (!limits.field || limits.field->is_empty()) return;
   const FieldBounds bounds = bounds_of(*limits.field, query);
   const double lower = std::max(answer.lower, down(bounds.lower));
+  const double field_upper = up(bounds.upper);
   // Within an error, the triangle found is near enough: its distance stays in the interval.
   const bool keeps_upper = answer.status == Status::kWithinError &&
                            answer.triangle != kNoTriangle && is_within_error(answer, limits);
-  double upper = keeps_upper ? answer.upper : std::min(answer.upper, up(bounds.upper));
+  double upper = keeps_upper ? answer.upper : std::min(answer.upper, field_upper);
   if (!(lower < upper)) return;
-  // The search may have left out all triangles as near as the field's point, which is within the
-  // error then.
-  if (answer.status == Status::kWithinError && upper < answer.distance)
-    answer.triangle = kNoTriangle;
-  const bool lacks_point =
-      answer.status == Status::kWithinError && !has_point(query, answer, answer.upper);
-  if (answer.triangle == kNoTriangle && (bounds.upper < answer.upper || lacks_point)) {
+  // The search may have left out all triangles as near as the field's point.
+  if (!keeps_upper && field_upper < answer.distance) answer.triangle = kNoTriangle;
+  if (!has_point(query, answer, field_upper)) {
+    const bool must_have_point = answer.status == Status::kWithinError;
     answer_with(bounds, 0, answer);
-    upper = answer.upper;
+    if (must_have_point) upper = field_upper;
   }
+  if (answer.triangle == kNoTriangle) answer.distance = upper;
   answer.lower = lower;
   answer.upper = upper;
   if (has_point(query, answer, upper) && answer.distance <= upper &&

@@ -69,7 +69,7 @@ class ClosestPointQuery {
     const SideResult& side = (parts & kSide) != 0 ? find_side(nearest, with_normal) : side_result_;
     if (with_normal)
       find_normal(nearest, side);
-    else if ((parts & kNormal) != 0 && answer_.status == Status::kWithinError)
+    else if ((parts & kNormal) != 0 && has_point_alone())
       find_direction(nearest);
     return incomplete_;
   }
@@ -122,9 +122,7 @@ class ClosestPointQuery {
     if (far_) return farthest(model_.tree, point_);
     if (with_side) start_prefetch();
     octree::NearestLimits limits;
-    // By the nearest feature the side belongs to the nearest triangle alone.
-    const bool may_err = !by_front() || !with_side;
-    limits.max_error = may_err ? model_.scale.in(options_.max_error) : 0;
+    limits.max_error = may_err() ? model_.scale.in(options_.max_error) : 0;
     limits.max_distance = model_.scale.in(options_.max_distance);
     limits.max_work = options_.max_work;
     // The direction to the field's point serves as a normal where that is far away.
@@ -137,11 +135,14 @@ class ClosestPointQuery {
     return search_nearest(limits);
   }
 
+  // By the nearest feature the side belongs to the nearest triangle alone.
+  bool may_err() const { return !by_front() || (computed_parts(options_.parts) & kSide) == 0; }
+
   // Whether an exact answer costs less than one within an error that the tree gives: near the last
   // query of a path.
   bool is_exact_cheaper(const octree::NearestLimits& limits) const {
     const octree::CoherenceCache& cache = coherence_.nearest;
-    return coherence_.is_on && options_.wait == Wait::kForPages && limits.has_unlimited_work() &&
+    return (remember_inexact_ || (remember_ && limits.has_unlimited_work())) &&
            cache.course() == octree::CoherenceCache::Course::kPath &&
            cache.is_near_last(point_, model_.diagonal);
   }
@@ -162,6 +163,7 @@ class ClosestPointQuery {
     account_for_missing_surface(model_.tree, point_, clearance(model_, point_, far_),
                                 model_.scale.in(options_.max_distance), nearest);
     fill_in(model_.scale, nearest, answer_);
+    accept_within_error(nearest);
     if (far_) measure_far(query_, options_, answer_);
     if (answer_.status == Status::kBeyondMaxDistance) answer_.lower = options_.max_distance;
     const bool is_within_error = answer_.upper - answer_.lower <= options_.max_error;
@@ -169,6 +171,17 @@ class ClosestPointQuery {
       answer_.status = Status::kWithinError;
     // Scaling to subnormal model units rounds the interval outward by as much as its width.
     if (answer_.status == Status::kWithinError && !is_within_error) mark_degraded();
+  }
+
+  // Accepts an answer that lacks pages or work, of a search for an exact one, if its interval is
+  // narrow enough all the same.
+  void accept_within_error(const octree::NearestAnswer& nearest) {
+    if (!incomplete_ || !may_err() || nearest.triangle == kNoTriangle ||
+        nearest.distance > nearest.upper || answer_.status != Status::kDegraded ||
+        !(answer_.upper - answer_.lower <= options_.max_error))
+      return;
+    incomplete_ = false;
+    answer_.status = Status::kWithinError;
   }
 
   const SideResult& find_side(const octree::NearestAnswer& nearest, bool with_normal) {
@@ -253,6 +266,11 @@ class ClosestPointQuery {
     const octree::Point normal = contact_normal(point_, nearest, faces, oriented, limit);
     answer_.normal = {normal.x(), normal.y(), normal.z()};
     if (!faces.complete || !oriented.winding_is_known || limit.exceeded()) mark_degraded();
+  }
+
+  // Whether the answer has a point and may do without a triangle.
+  bool has_point_alone() const {
+    return answer_.status == Status::kWithinError || answer_.status == Status::kDegraded;
   }
 
   // Sets the normal of an answer without a triangle: the direction from its point to the query, or,

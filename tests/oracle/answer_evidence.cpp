@@ -59,10 +59,16 @@ void AnswerEvidence::add_ahead(const Corners& triangle) {
   crossings_ += ray_crossing(answer_->query, triangle);
 }
 
+// Whether the upper end comes from the box of a subtree that was skipped, and not from the triangle
+// named, which is farther.
+static bool is_box_nearer(const AnswerRow& answer) {
+  return answer.status == Status::kDegraded && answer.distance > answer.upper;
+}
+
 std::string AnswerEvidence::fault() const {
   const AnswerRow& a = *answer_;
   if (!is_finite(a.query)) return "nothing can be answered to this query";
-  if (!(0 <= a.lower && a.lower <= a.distance && a.distance <= a.upper))
+  if (!(0 <= a.lower && a.lower <= a.distance && (a.distance <= a.upper || is_box_nearer(a))))
     return "the distance is not within the interval";
   if (nearer_ != kNoTriangle)
     return "triangle " + std::to_string(nearer_) + " is nearer than the interval says";
@@ -71,7 +77,8 @@ std::string AnswerEvidence::fault() const {
     return reached_ || !std::isfinite(a.upper) ? "" : "no triangle is within the interval";
   }
   if (!named_seen_) return "the mesh has no such triangle";
-  if (!named_within_) return "the triangle named is farther than the interval says";
+  if (!named_within_ && !is_box_nearer(a))
+    return "the triangle named is farther than the interval says";
   if (first_ != kNoTriangle && first_ != a.triangle)
     return "triangle " + std::to_string(first_) + " comes before the one named";
   return {};

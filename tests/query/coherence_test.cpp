@@ -100,6 +100,33 @@ TEST_P(CoherenceTest, LeavesLimitedAnswersInTheirIntervals) {
   EXPECT_GT(degraded, 20);
 }
 
+TEST_P(CoherenceTest, AnAllowedErrorCostsNoMoreThanNoneWithoutWaiting) {
+  lookups(*model_, {});
+  const std::uint64_t exact = lookups(*model_, {.wait = Wait::kNever});
+  for (const double error : {1e-5, 1e-3, 1e-2, 1e-1})
+    EXPECT_LE(lookups(*model_, {.wait = Wait::kNever, .max_error = error}), exact * 102 / 100)
+        << error;
+}
+
+// Near the last query an exact answer is sought, and one that lacks pages may be within the error.
+TEST_P(CoherenceTest, RealTimeAnswersTellWhetherTheyAreWithinTheError) {
+  const auto kept = probe(), fresh = probe();
+  int within_error = 0;
+  for (const Vec3& query : path_and_jumps()) {
+    const ClosestPoint exact = fresh->closest_point(query, {.parts = kDistance});
+    const ClosestPoint answer =
+        kept->closest_point(query, {.parts = kDistance, .wait = Wait::kNever, .max_error = 2e-2});
+    EXPECT_LE(answer.lower, exact.upper);
+    EXPECT_GE(answer.upper, exact.lower);
+    const bool is_narrow = answer.upper - answer.lower <= 2e-2;
+    const bool has_triangle = answer.triangle != kNoTriangle;
+    EXPECT_TRUE(answer.status != Status::kWithinError || is_narrow);
+    EXPECT_TRUE(answer.status != Status::kDegraded || !is_narrow || !has_triangle);
+    within_error += answer.status == Status::kWithinError;
+  }
+  EXPECT_GT(within_error, 20);
+}
+
 TEST_P(CoherenceTest, LeavesAllowedErrorsInTheirIntervals) {
   const auto kept = probe(), fresh = probe();
   fresh->coherence().is_on = false;

@@ -187,6 +187,24 @@ TEST_F(FieldAnswers, NarrowAnswersWithoutPages) {
   }
 }
 
+// The triangle of the last answer may be far away. The field's point is then nearer, and the normal
+// points from it to the query.
+TEST_F(FieldAnswers, AreNearerThanTheLastTriangleAfterAJump) {
+  const Model model = open();
+  Probe probe = make_probe(model);
+  int without_triangle = 0;
+  for (const Vec3& query : random_queries(300, 1.05, 1.4)) {
+    probe.closest_point({-1.01, 0, 0});
+    const ClosestPoint answer = probe.closest_point(query, {.max_work = 8});
+    EXPECT_LE(answer.distance, answer.upper);
+    if (answer.status != Status::kDegraded || answer.triangle != kNoTriangle) continue;
+    ++without_triangle;
+    const Vec3 away = query - answer.point;
+    EXPECT_NEAR(dot(answer.normal, away), length(away), 1e-9);
+  }
+  EXPECT_GT(without_triangle, 200);
+}
+
 TEST_F(FieldAnswers, NarrowAnswersOfLittleWork) {
   const Model model = open();
   Probe probe = make_probe(model);

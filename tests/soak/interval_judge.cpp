@@ -75,6 +75,12 @@ std::string_view broken_interval(const JudgedQuery& query, const ClosestPoint& a
   return "";
 }
 
+// Whether no face at the nearest point has area, so that none tells on which side the query is.
+bool lacks_front(const QueryOptions& options, const ClosestPoint& a) {
+  return options.normal_rule == NormalRule::kTowardQuery && a.normal.x == 0 && a.normal.y == 0 &&
+         a.normal.z == 1;
+}
+
 std::string_view broken_status(const JudgedQuery& query, const ClosestPoint& a) {
   const QueryOptions& options = query.options;
   switch (a.status) {
@@ -88,7 +94,8 @@ std::string_view broken_status(const JudgedQuery& query, const ClosestPoint& a) 
       return "";
     case Status::kDegraded:
       if (a.side != Side::kUnknown && a.side != query.exact.side) return "the side is another";
-      if (is_unhindered(options) && query.exact.status == Status::kExact && !may_round(a))
+      if (is_unhindered(options) && query.exact.status == Status::kExact && !may_round(a) &&
+          !lacks_front(options, a))
         return "nothing was missing";
       return "";
     case Status::kBeyondMaxDistance:

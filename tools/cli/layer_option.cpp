@@ -2,17 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <sstream>
-#include <utility>
 
 #include "octree/builder/mesh/stream/mesh_text.h"
+#include "tools/cli/word_mask.h"
 
 namespace planetree::tools {
 namespace {
 
-constexpr std::array<std::pair<const char*, std::uint32_t>, 3> kWords = {
+constexpr std::array<WordBit, 3> kWords = {
     {{"distance", kDistanceLayer}, {"side", kSideLayer}, {"field", kFieldLayer}}};
 
 std::string complaint_of(const std::string& text) {
@@ -25,24 +23,11 @@ std::string complaint_of(const std::string& text) {
 }  // namespace
 
 std::uint32_t layers_of(const std::string& text) {
-  if (text.empty() || text.back() == ',') return 0;
-  std::uint32_t layers = kDistanceLayer;
-  std::istringstream words(text);
-  for (std::string word; std::getline(words, word, ',');) {
-    const auto* const found = std::find_if(
-        kWords.begin(), kWords.end(), [&word](const auto& known) { return word == known.first; });
-    if (found == kWords.end()) return 0;
-    layers |= found->second;
-  }
-  return layers;
+  const std::uint32_t layers = bits_of_words(text, kWords);
+  return layers == 0 ? 0 : layers | kDistanceLayer;
 }
 
-std::vector<std::string> layer_words(std::uint32_t layers) {
-  std::vector<std::string> words;
-  for (const auto& [word, layer] : kWords)
-    if ((layers & layer) != 0) words.emplace_back(word);
-  return words;
-}
+std::vector<std::string> layer_words(std::uint32_t layers) { return words_of_bits(layers, kWords); }
 
 std::string layers_text(std::uint32_t layers) {
   return fmt::format("{}", fmt::join(layer_words(layers), ","));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "tools/cli/layer_option.h"
+#include "tools/cli/parts_option.h"
 #include "tools/cli/shell_word.h"
 
 namespace planetree::tools {
@@ -15,6 +16,7 @@ std::string trade_command(const TradeArguments& arguments) {
   if (arguments.memory_bytes != defaults.memory_bytes)
     text += fmt::format(" --memory {}", arguments.memory_bytes);
   if (arguments.layers != defaults.layers) text += " --layers " + layers_text(arguments.layers);
+  if (arguments.parts != defaults.parts) text += " --parts " + parts_text(arguments.parts);
   return text + " --html " + shell_word(arguments.html.string()) + " --force";
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "planetree/layers.h"
+#include "planetree/types.h"
 
 namespace planetree::tools {
 
@@ -15,6 +16,7 @@ struct TradeArguments {
   std::uint64_t count = 2000;    ///< query points of each workload
   std::uint64_t memory_bytes = std::uint64_t{256} << 20;
   std::uint32_t layers = kAllLayers;  ///< layers to open
+  std::uint32_t parts = kAllParts;    ///< parts to ask for
   std::filesystem::path html;         ///< page to write; empty: none; "-" is standard output
   bool force = false;                 ///< whether an existing page may be replaced
   bool json = false;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/cli/layer_option.h"
+#include "tools/cli/parts_option.h"
 #include "tools/cli/size_text.h"
 #include "tools/cli/subcommand.h"
 
@@ -64,6 +65,7 @@ Json json_of(const TradeRow& row, std::size_t workload, const TradeRecord& recor
   return {{"workload", name_of(record.workloads[workload])},
           {"options", json_of(row.setting)},
           {"layers", layer_words(record.layers)},
+          {"parts", part_words(record.parts)},
           {"points", result.points},
           {"queries_per_second", per_second(result)},
           {"ratio_to_exact", result.ratio_to_exact},
@@ -89,7 +91,8 @@ std::string trade_words(const TradeRecord& record) {
       "Errors in the tables are shares of the diagonal. Rows marked - are no better in "
       "time or promised error than another.\n",
       record.file, grouped_count(record.triangles), record.diagonal, record.median_edge,
-      record.layers == record.file_layers ? "" : ", layers " + layers_text(record.layers));
+      (record.layers == record.file_layers ? "" : ", layers " + layers_text(record.layers)) +
+          (record.parts == kAllParts ? "" : ", parts " + parts_text(record.parts)));
   for (std::size_t i = 0; i < record.workloads.size(); ++i) text += table(record, i);
   for (const std::uint64_t bytes : record.too_small)
     text +=
@@ -103,8 +106,9 @@ std::string trade_words(const TradeRecord& record) {
   }
   if (last)
     text += fmt::format(
-        "\nplanetree query {} POINTS{}{}{}\n", record.file,
+        "\nplanetree query {} POINTS{}{}{}{}\n", record.file,
         record.layers == record.file_layers ? "" : " --layers " + layers_text(record.layers),
+        record.parts == kAllParts ? "" : " --parts " + parts_text(record.parts),
         last->setting.is_exact() ? "" : " ", last->setting.options());
   return text;
 }

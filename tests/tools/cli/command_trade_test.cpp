@@ -1,7 +1,9 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -64,6 +66,45 @@ TEST_F(CommandTrade, RecommendsOptionsThatKeepTheirError) {
     EXPECT_LE(recommended["options"]["max_error"], recommended["max_error"]);
   EXPECT_NEAR(report["recommended"][0]["max_error"], 1e-4 * report["diagonal"].get<double>(),
               1e-12);
+}
+
+// The distances alone, so that the field answers near the surface too.
+TEST_F(CommandTrade, MeasuresTheGivenParts) {
+  const Json report = measured({"--parts", "distance"});
+  for (const Json& row : report["rows"]) {
+    EXPECT_EQ(row["parts"], Json({"distance"}));
+    EXPECT_EQ(row["broken"], 0) << row;
+  }
+  const Outcome words =
+      run({"trade", "tree.ptree", "--count", "20", "--quiet", "--parts", "distance"});
+  EXPECT_NE(words.output.find(", parts distance"), std::string::npos) << words.output;
+  EXPECT_NE(words.output.find("POINTS --parts distance"), std::string::npos) << words.output;
+  EXPECT_EQ(run({"trade", "tree.ptree", "--parts", "side"}).status, 2);
+  EXPECT_EQ(run({"trade", "tree.ptree", "--parts", "colour"}).status, 2);
+}
+
+// The recommended options, given to the query command, keep the error at other points.
+TEST_F(CommandTrade, RecommendsOptionsThatKeepTheirErrorElsewhere) {
+  const Json report = measured({"--parts", "distance"});
+  std::string points = "x,y,z\n";
+  for (int i = 0; i < 200; ++i)
+    points += fmt::format("{},{},{}\n", i * 0.017 - 1.5, i % 23 * 0.11 - 1, i % 7 * 0.3 - 1);
+  int answered = 0;
+  for (const Json& recommended : report["recommended"]) {
+    const double error = recommended["options"]["max_error"];
+    const Outcome answers = run({"query", "tree.ptree", "-", "--parts", "distance", "--max-error",
+                                 fmt::format("{}", error), "--format", "jsonl", "--quiet"},
+                                points);
+    ASSERT_EQ(answers.status, 0) << answers.errors;
+    std::istringstream lines(answers.output);
+    for (std::string line; std::getline(lines, line);) {
+      const Json answer = Json::parse(line);
+      EXPECT_LE(answer["upper"].get<double>() - answer["lower"].get<double>(),
+                recommended["max_error"].get<double>());
+      answered += answer["status"] == "within_error" || answer["status"] == "exact";
+    }
+  }
+  EXPECT_EQ(answered, 4 * 200);
 }
 
 TEST_F(CommandTrade, AsksAtGivenPoints) {

@@ -80,9 +80,10 @@ TEST(TradeCommand, LeavesOutWhatIsDefault) {
   arguments.points = "points.csv";
   arguments.count = 50;
   arguments.memory_bytes = 4096;
+  arguments.parts = kDistance;
   EXPECT_EQ(trade_command(arguments),
-            "planetree trade 'my scan.ptree' --points points.csv --count 50 --memory 4096 --html "
-            "out.html --force");
+            "planetree trade 'my scan.ptree' --points points.csv --count 50 --memory 4096 --parts "
+            "distance --html out.html --force");
 }
 
 }  // namespace
