@@ -109,9 +109,11 @@ void narrow(const Point& query, const NearestLimits& limits, NearestAnswer& answ
   double upper = keeps_upper ? answer.upper : std::min(answer.upper, field_upper);
   if (!(lower < upper)) return;
   // The search may have left out all triangles as near as the field's point.
-  if (!keeps_upper && field_upper < answer.distance) answer.triangle = kNoTriangle;
-  if (!has_point(query, answer, field_upper)) {
+  const bool is_farther =
+      answer.triangle != kNoTriangle && !keeps_upper && field_upper < answer.distance;
+  if (is_farther || !has_point(query, answer, field_upper)) {
     const bool must_have_point = answer.status == Status::kWithinError;
+    answer.triangle = kNoTriangle;
     answer_with(bounds, 0, answer);
     if (must_have_point) upper = field_upper;
   }
