@@ -45,10 +45,11 @@ enum class Side : std::uint8_t {
   kOutside,    ///< off the surface, |w| < 1/2, or in front of a sheet
   kOnSurface,  ///< exactly on a triangle
   /// Not known, for one of these reasons: the side was not requested; a page is missing or
-  /// unreadable; QueryOptions::max_work is spent; |w| is too close to 1/2 to decide; or the file
-  /// has the triangles of a region only, and these do not determine the side (see
-  /// ModelInfo::has_region). By SideRule::kSurface also if the nearest triangle is not proven, if
-  /// no face at the nearest point has area, or if wide numbers cannot tell the sign.
+  /// unreadable; QueryOptions::max_work is spent; |w| is too close to 1/2 to decide; the side
+  /// layer is not open (see OpenOptions::layers); or the file has the triangles of a region only,
+  /// and these do not determine the side (see ModelInfo::has_region). By SideRule::kSurface also
+  /// if the nearest triangle is not proven, if no face at the nearest point has area, or if wide
+  /// numbers cannot tell the sign.
   kUnknown,
 };
 
@@ -58,12 +59,12 @@ enum class SideRule : std::uint8_t {
   kOfFile,
   /// The surface bounds a solid: by the winding number, see Side.
   kSolid,
-  /// The surface is an open sheet, such as a terrain: by the nearest face, edge or vertex. The side
-  /// is kOutside in front of its angle-weighted pseudo-normal, kInside behind it. A point exactly
-  /// in
-  /// the plane of the pseudo-normal, as beyond a border of a flat sheet, is kOutside. If the sum of
-  /// the normals cancels, the nearest face of least index decides. The side is exact or kUnknown.
-  /// It belongs to the nearest triangle, so the query searches for that whatever `max_error` is.
+  /// The surface is an open sheet, such as a terrain: by the nearest face, edge or vertex. The
+  /// side is kOutside in front of its angle-weighted pseudo-normal, kInside behind it. A point
+  /// exactly in the plane of the pseudo-normal, as beyond a border of a flat sheet, is kOutside.
+  /// If the sum of the normals cancels, the nearest face of least index decides. The side is exact
+  /// or kUnknown. It belongs to the nearest triangle, so the query searches for that whatever
+  /// `max_error` is.
   ///
   /// source  Baerentzen & Aanaes 2005, "Signed distance computation using the angle weighted
   ///         pseudonormal".
@@ -85,20 +86,20 @@ enum class Status : std::uint8_t {
   /// computed distance, and another one may be nearer.
   kExact,
   /// Not exact, but upper - lower <= QueryOptions::max_error, and `distance` lies in the interval.
-  /// A
-  /// triangle other than the reported one may be nearer. Most such answers come from the coarse
-  /// field of the file and report no triangle. The side is as for kExact. The normal is that of the
-  /// reported triangle; without one it is the direction between `point` and the query, out of the
-  /// solid. In a batch such an answer depends on the file and the query alone. A single query near
-  /// the last one of its probe may be answered exactly instead, where that costs less.
+  /// A triangle other than the reported one may be nearer. Most such answers come from the coarse
+  /// field of the file and report no triangle. The side is as for kExact. The normal is that of
+  /// the reported triangle; without one it is the direction between `point` and the query, out of
+  /// the solid. In a batch such an answer depends on the file and the query alone. A single query
+  /// near the last one of its probe may be answered exactly instead, where that costs less.
   kWithinError,
-  /// Not exact: a page is missing or unreadable, QueryOptions::max_work is spent, triangles outside
-  /// of the region may be nearer (see ModelInfo::has_region), or the side is unknown because |w| is
-  /// 1/2 to the last bits or the query is beyond a wall of the region.
+  /// Not exact: a page is missing or unreadable, QueryOptions::max_work is spent, triangles
+  /// outside of the region may be nearer (see ModelInfo::has_region), or a requested side is
+  /// unknown because |w| is 1/2 to the last bits, the query is beyond a wall of the region, or the
+  /// side layer is not open. The distance is exact all the same if the interval is as narrow as
+  /// rounding allows.
   kDegraded,
   /// No surface within QueryOptions::max_distance. By SideRule::kSolid the side is computed as
-  /// usual
-  /// and may be kUnknown. By SideRule::kSurface it is kUnknown.
+  /// usual and may be kUnknown. By SideRule::kSurface it is kUnknown.
   kBeyondMaxDistance,
   kBadQuery,  ///< a coordinate of the query point is not finite, or an option is out of range
 };
@@ -145,15 +146,14 @@ struct QueryOptions {
   /// kBeyondMaxDistance. Model units, >= 0, may be infinite.
   double max_distance = std::numeric_limits<double>::infinity();
   /// Maximum work, in units of at most about 2,000 instructions. A visit of a node or block of the
-  /// tree or of a grey cell of the mask is one unit. Distances, crossing tests, solid angles, exact
-  /// signs and the faces at an edge or a vertex are charged too, so that the limit bounds the time
-  /// of a query whatever the file holds. If it is reached, the answer is kDegraded. 0 is allowed.
-  /// A single query starts near the last answer of its probe, so that an answer that is not exact
-  /// depends on the probe's earlier queries. An answer of a batch does not.
-  /// The distance search uses the work first. The search for the side gets what is left, then the
-  /// normal. kNoLimit, the default, means no limit for
-  /// Wait::kForPages and kRealTimeWork for Wait::kNever. For a real-time query that is practically
-  /// without a limit, give kNoLimit - 1.
+  /// tree or of a grey cell of the mask is one unit. Distances, crossing tests, solid angles,
+  /// exact signs and the faces at an edge or a vertex are charged too, so that the limit bounds
+  /// the time of a query whatever the file holds. If it is reached, the answer is kDegraded. 0 is
+  /// allowed. A single query starts near the last answer of its probe, so that an answer that is
+  /// not exact depends on the probe's earlier queries. An answer of a blocking batch does not. The
+  /// distance search uses the work first. The search for the side gets what is left, then the
+  /// normal. kNoLimit, the default, means no limit for Wait::kForPages and kRealTimeWork for
+  /// Wait::kNever. For a real-time query that is practically without a limit, give kNoLimit - 1.
   std::uint32_t max_work = kNoLimit;
 
   /// Value of `max_work` that selects the default of the wait mode.

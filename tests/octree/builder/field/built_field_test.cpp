@@ -57,7 +57,7 @@ TEST(BuiltField, IsEmptyForFewTriangles) {
 
 // A search would have to look at all of them.
 TEST(BuiltField, IsEmptyForManyTrianglesInOnePlace) {
-  EXPECT_EQ(SampleField(octree::repeated(200000)).field.page_count(), 0u);
+  EXPECT_EQ(SampleField(octree::repeated(50000)).field.page_count(), 0u);
 }
 
 // A grid about a region far from the surface could not store the nearest points.
