@@ -1,5 +1,6 @@
 #include "planetree/probe.h"
 
+#include <algorithm>
 #include <cassert>
 #include <limits>
 #include <new>
@@ -17,12 +18,12 @@
 namespace planetree::query {
 
 // Leaves a fetch request: a fetch thread runs the query again and waits for the pages.
-void ProbeState::request(const Vec3& query, const QueryOptions& options,
-                         std::uint32_t parts) noexcept {
+void ProbeState::request(const Vec3& query, const QueryOptions& options, std::uint32_t parts,
+                         std::uint64_t triangles, double radius) noexcept {
   model_.requests(reader_.index())
       .missed.store({query, options.max_error, options.max_distance, options.max_work, parts,
                      static_cast<std::uint64_t>(options.side_rule),
-                     static_cast<std::uint64_t>(options.normal_rule)});
+                     static_cast<std::uint64_t>(options.normal_rule), triangles, radius});
 }
 
 template <PageAccess::Query kKind>
@@ -128,6 +129,51 @@ void ProbeState::fetch_pages(const Vec3& query, const QueryOptions& options, Fet
                        unused);
 }
 
+Found ProbeState::find_triangles(const TriangleSetQuery& query, std::span<ClosestPoint> found,
+                                 const QueryOptions& options) noexcept {
+  if (!is_valid(query.centre, options) || !(query.radius >= 0)) return {};
+  QueryOptions limited = with_defaults(options);
+  octree::TraversalStats work;
+  TriangleSet set;
+  {
+    PageAccessor accessor(reader_, options.wait, model_.query_terms);
+    if (trace_) {
+      trace_->begin_query(PageAccess::Query::kClosestPoint, options.wait);
+      accessor.set_trace(trace_);
+    }
+    set = query::find_triangles({model_.geometry, accessor.pages(), coherence_, work}, query,
+                                limited, found);
+    if (set.is_degraded) {
+      if (accessor.missed()) request(query.centre, limited, kDistance, found.size(), query.radius);
+      accessor.pages().need_others();
+      note_degraded(std::numeric_limits<double>::infinity(), accessor.missed());
+    }
+  }
+  if ((options.parts & kSide) == 0 || set.found.count == 0) return set.found;
+  if (limited.max_work != QueryOptions::kNoLimit)
+    limited.max_work -=
+        static_cast<std::uint32_t>(std::min<std::uint64_t>(work.units, limited.max_work));
+  const Side side = contains(query.centre, limited).side;
+  for (ClosestPoint& answer : found.first(set.found.count)) {
+    answer.side = side;
+    if (side == Side::kUnknown) answer.status = Status::kDegraded;
+  }
+  return set.found;
+}
+
+void ProbeState::fetch_triangles(const TriangleSetQuery& query, std::uint64_t count,
+                                 const QueryOptions& options,
+                                 const std::atomic<bool>& stop) noexcept {
+  if (!is_valid(query.centre, options) || !(query.radius >= 0)) return;
+  PageAccessor accessor(reader_, options.wait, model_.fetcher_terms, &stop);
+  if (trace_) {
+    trace_->begin_query(PageAccess::Query::kFetch, options.wait);
+    accessor.set_trace(trace_);
+  }
+  octree::TraversalStats work;
+  visit_triangles({model_.geometry, accessor.pages(), coherence_, work}, query, count, options);
+}
+
 }  // namespace planetree::query
 
 namespace planetree {
@@ -167,6 +213,19 @@ Containment Probe::contains(Vec3 query, const QueryOptions& options) noexcept {
   // Before the FpEnvironmentGuard: reading its register waits for pending computations.
   const Containment fast = state_->contains_fast(query, options);
   return fast.side != Side::kUnknown ? fast : contains_computed(*state_, query, options);
+}
+
+Found Probe::nearest_triangles(Vec3 query, std::span<ClosestPoint> found,
+                               const QueryOptions& options) noexcept {
+  const octree::FpEnvironmentGuard host;
+  constexpr double kAnywhere = std::numeric_limits<double>::infinity();
+  return state_->find_triangles({query, kAnywhere, false}, found, options);
+}
+
+Found Probe::triangles_within(Vec3 query, double radius, std::span<ClosestPoint> found,
+                              const QueryOptions& options) noexcept {
+  const octree::FpEnvironmentGuard host;
+  return state_->find_triangles({query, radius, true}, found, options);
 }
 
 void Probe::motion(Vec3 position, Vec3 velocity) noexcept {

@@ -13,6 +13,7 @@
 #include "cache/reader.h"
 #include "planetree/types.h"
 #include "query/answer/query_context.h"
+#include "query/answer/triangle_set.h"
 #include "query/serve/batch_order.h"
 #include "query/serve/fetch_requests.h"
 #include "query/serve/fetch_threads.h"
@@ -53,6 +54,9 @@ class ProbeState {
   /// a solid; else kUnknown. It computes nothing with doubles, so the thread may be in any
   /// floating-point mode. It looks nothing up if the grid did not decide the last query.
   Containment contains_fast(const Vec3& query, const QueryOptions& options) noexcept;
+  /// See Probe::nearest_triangles and Probe::triangles_within.
+  Found find_triangles(const TriangleSetQuery& query, std::span<ClosestPoint> found,
+                       const QueryOptions& options) noexcept;
   /// See Probe::motion.
   void note_motion(const Vec3& position, const Vec3& velocity) noexcept {
     model_.requests(reader_.index())
@@ -67,6 +71,9 @@ class ProbeState {
   /// See FetchProbe::fetch_pages.
   void fetch_pages(const Vec3& query, const QueryOptions& options, FetchReason reason,
                    const std::atomic<bool>& stop) noexcept;
+  /// See FetchProbe::fetch_triangles.
+  void fetch_triangles(const TriangleSetQuery& query, std::uint64_t count,
+                       const QueryOptions& options, const std::atomic<bool>& stop) noexcept;
   /// See FetchProbe::read_awaited_page.
   bool read_awaited_page() noexcept {
     if (trace_) {
@@ -92,7 +99,8 @@ class ProbeState {
   Containment find_front(const Vec3& query, QueryOptions options) noexcept;
   Containment leave_unknown(const QueryOptions& options) noexcept;
   void note_degraded(double width, bool missed) noexcept;
-  void request(const Vec3& query, const QueryOptions& options, std::uint32_t parts) noexcept;
+  void request(const Vec3& query, const QueryOptions& options, std::uint32_t parts,
+               std::uint64_t triangles = 0, double radius = 0) noexcept;
 
   // First, so that it is destroyed last: once the reader slot is released, another thread may make
   // a probe in this memory.
@@ -131,6 +139,11 @@ class QueryingFetchProbe final : public FetchProbe {
   void fetch_pages(const Vec3& query, const QueryOptions& options, FetchReason reason,
                    const std::atomic<bool>& stop) noexcept override {
     probe_->fetch_pages(query, options, reason, stop);
+  }
+  void fetch_triangles(const Vec3& query, double radius, std::uint64_t count,
+                       const QueryOptions& options,
+                       const std::atomic<bool>& stop) noexcept override {
+    probe_->fetch_triangles({query, radius}, count, options, stop);
   }
   bool read_awaited_page() noexcept override { return probe_->read_awaited_page(); }
 

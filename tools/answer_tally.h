@@ -11,15 +11,15 @@
 
 namespace planetree::tools {
 
-/// Counts of answers by status and by side.
+/// Counts of answers by status and by side. A point may have several.
 struct AnswerTally {
   std::uint64_t points = 0;
   std::array<std::uint64_t, kStatusCount> by_status{};
   std::array<std::uint64_t, kSideCount> by_side{};
 
   template <class Answer>
-  void add(std::span<const Answer> answers) {
-    points += answers.size();
+  void add(std::uint64_t point_count, std::span<const Answer> answers) {
+    points += point_count;
     for (const Answer& answer : answers) {
       ++by_status[static_cast<std::size_t>(answer.status)];
       ++by_side[static_cast<std::size_t>(answer.side)];

@@ -29,6 +29,7 @@ constexpr std::size_t kChunkPoints = 65536;
 // in between.
 constexpr std::size_t kTracedPoints = 16384;
 constexpr std::uint32_t kTraceWords = std::uint32_t{1} << 20;
+constexpr std::size_t kChunkOfSets = 256;  // points of which each may have many rows
 
 /// No progress bar where rows go to a terminal, because they would overwrite each other.
 bool shows_rows(const QueryArguments& arguments, const Console& console) {
@@ -82,8 +83,7 @@ class QueryRun {
   }
 
   int run(PointReader& points, AnswerOutput& output) {
-    const int status = arguments_.contains ? answer_all<Containment>(points, output)
-                                           : answer_all<ClosestPoint>(points, output);
+    const int status = answer(points, output);
     const auto error = pages_lost(model_.stats());
     if (error) return std::max(status, console_.fail(arguments_.file.string(), *error));
     return status;
@@ -101,22 +101,50 @@ class QueryRun {
   }
 
  private:
-  void run(std::span<const Vec3> queries, std::span<ClosestPoint> answers) {
-    probe_.closest_points(queries, answers, options_);
-  }
-  void run(std::span<const Vec3> queries, std::span<Containment> answers) {
-    probe_.contains(queries, answers, options_);
+  // Points and their answers, one a row.
+  template <class Answer>
+  struct Rows {
+    std::span<const Vec3> points;
+    std::span<const Answer> answers;
+  };
+
+  int answer(PointReader& points, AnswerOutput& output) {
+    if (arguments_.contains) {
+      std::vector<Containment> answers(kChunkPoints);
+      return answer_all<Containment>(points, output, [&](std::span<const Vec3> queries) {
+        const auto own = std::span(answers).first(queries.size());
+        probe_.contains(queries, own, options_);
+        return Rows<Containment>{queries, own};
+      });
+    }
+    if (arguments_.triangles.is_given()) {
+      TriangleRows sets(probe_, options_, arguments_.triangles);
+      return answer_all<ClosestPoint>(points, output, [&](std::span<const Vec3> queries) {
+        sets.answer(queries);
+        return Rows<ClosestPoint>{sets.points(), sets.rows()};
+      });
+    }
+    std::vector<ClosestPoint> answers(kChunkPoints);
+    return answer_all<ClosestPoint>(points, output, [&](std::span<const Vec3> queries) {
+      const auto own = std::span(answers).first(queries.size());
+      probe_.closest_points(queries, own, options_);
+      return Rows<ClosestPoint>{queries, own};
+    });
   }
 
   double seconds() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
   }
 
-  template <class Answer>
-  int answer_all(PointReader& points, AnswerOutput& output) {
+  std::size_t chunk_points() const {
+    return arguments_.triangles.is_given() ? kChunkOfSets : trace_ ? kTracedPoints : kChunkPoints;
+  }
+
+  // rows_of(queries) returns Rows.
+  template <class Answer, class RowsOf>
+  int answer_all(PointReader& points, AnswerOutput& output, const RowsOf& rows_of) {
     AnswerWriter writer(output, form_);
-    std::vector<Vec3> queries(trace_ ? kTracedPoints : kChunkPoints);
-    std::vector<Answer> answers(queries.size());
+    std::vector<Vec3> queries(chunk_points());
     Result<bool> wanted = true;
     while (wanted && *wanted) {
       const auto count = points.read(queries);
@@ -125,14 +153,11 @@ class QueryRun {
         return console_.fail(points.name(), count ? no_point() : count.error());
       }
       if (*count == 0) break;
-      const auto batch_queries = std::span(queries).first(*count);
-      const auto batch_answers = std::span(answers).first(*count);
-      run(batch_queries, batch_answers);
+      const Rows<Answer> rows = rows_of(std::span<const Vec3>(queries).first(*count));
       if (trace_) trace_->drain();
       if (tally_.points == 0) wanted = writer.begin(Answer());
-      tally_.add<Answer>(batch_answers);
-      if (wanted && *wanted)
-        wanted = writer.write(batch_queries, std::span<const Answer>(batch_answers));
+      tally_.add(*count, rows.answers);
+      if (wanted && *wanted) wanted = writer.write(rows.points, rows.answers);
       progress_.add(*count);
     }
     return finish(output, wanted);

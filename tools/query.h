@@ -10,6 +10,7 @@
 #include "tools/cli/subcommand.h"
 #include "tools/points/answer_writer.h"
 #include "tools/points/column_names.h"
+#include "tools/points/triangle_rows.h"
 
 namespace CLI {
 class App;
@@ -28,6 +29,7 @@ struct QueryArguments {
   QueryOptions options;
   bool parts_are_given = false;       ///< else the parts that the layers tell are computed
   bool contains = false;              ///< request the side alone
+  TriangleRowsQuery triangles;        ///< if given: request the triangles about each point
   std::uint32_t layers = kAllLayers;  ///< layers to open
   EvictionPolicy policy = OpenOptions{}.policy;  ///< how the page to evict is chosen
   std::uint64_t memory_bytes = std::uint64_t{256} << 20;

@@ -13,6 +13,7 @@ namespace planetree::tools {
 namespace {
 
 constexpr std::uint64_t kMaxWaitMs = std::uint64_t{24} * 60 * 60 * 1000;
+constexpr std::uint64_t kMaxNearest = 1000000;
 constexpr std::uint64_t kMaxWork = QueryOptions::kNoLimit - 1;
 
 struct Options {
@@ -63,6 +64,15 @@ void add_answers(SubcommandOptions& subcommand, QueryArguments& arguments) {
   AnswerForm& form = arguments.form;
   const auto contains =
       subcommand.flag("--contains", arguments.contains, "Report only the side of each point");
+  const auto nearest = subcommand.count(
+      "--nearest", arguments.triangles.nearest, kMaxNearest,
+      "Report so many triangles about each point, the nearest first: a row for each, with the "
+      "distance from it and its own normal");
+  const auto within = subcommand.length(
+      "--within", arguments.triangles.radius, false,
+      "Report the triangles within this distance of each point, in model units, at most 100,000 or "
+      "what --nearest says. A row without a triangle says that there is none "
+      "(beyond_max_distance) or that more may be near (degraded)");
   const auto is_signed = subcommand.flag(
       "--signed", form.signed_distance,
       "Report the distance as signed_distance: negative inside, NaN where the side is unknown. The "
@@ -96,6 +106,8 @@ void add_answers(SubcommandOptions& subcommand, QueryArguments& arguments) {
           "point's side of the surface"),
       "outward");
   subcommand.exclude(normal, contains);
+  for (const auto triangles : {nearest, within})
+    for (const auto other : {contains, normal}) subcommand.exclude(triangles, other);
   subcommand.exclude(is_signed, contains);
   subcommand.exclude(parts, contains);
   subcommand.default_text(
@@ -151,6 +163,7 @@ void add_limits(SubcommandOptions& subcommand, Options& options) {
 
 /// What is wrong with the options together.
 std::string complaint_of(const QueryArguments& arguments) {
+  if (arguments.triangles.nearest == 0) return "--nearest 0 finds nothing; give 1 or more";
   const std::uint32_t parts = arguments.options.parts;
   const bool has_both =
       (parts & kNormal) != 0 || (parts & (kDistance | kSide)) == (kDistance | kSide);

@@ -76,6 +76,33 @@ class PLANETREE_API Probe {
   ///          gives kBadQuery.
   Containment contains(Vec3 query, const QueryOptions& options = {}) noexcept;
 
+  /// Finds the triangles nearest to the query point: as many as fit into `found`, by distance and,
+  /// where distances are equal, by index.
+  ///
+  /// Each answer is about one triangle: its distance with the interval, the nearest point on it,
+  /// and with kNormal in `parts` its own unit normal, as the mesh orients it, or (0, 0, 1) if it
+  /// has no area. With kSide, each has the side of the query point. The status is kExact if no
+  /// triangle that lacks can come before this one, and the side is known or not requested; else
+  /// kDegraded.
+  ///
+  /// query    query point, model units. A coordinate that is NaN or infinite, or so large that it
+  ///          overflows, finds nothing.
+  /// found    receives the answers, the nearest first.
+  /// options  `wait`, `max_distance`, `max_work`, `parts` and `side_rule` have an effect. A value
+  ///          out of range finds nothing.
+  /// return   how many were found. `complete` says that no other triangle belongs to them. If
+  ///          not, pages or work lacked, or the triangles of the file's region do not suffice. A
+  ///          real-time query then requests the pages for the nearest 256 triangles, or for all
+  ///          within `max_distance` if more were asked for.
+  Found nearest_triangles(Vec3 query, std::span<ClosestPoint> found,
+                          const QueryOptions& options = {}) noexcept;
+  /// Finds all triangles within a radius of the query point; else as nearest_triangles(). If there
+  /// are more than fit into `found`, these are the nearest, and the set is not complete.
+  ///
+  /// radius  model units, >= 0, may be infinite. Another value finds nothing.
+  Found triangles_within(Vec3 query, double radius, std::span<ClosestPoint> found,
+                         const QueryOptions& options = {}) noexcept;
+
   /// Reports where the device is and how fast it moves. From this a fetch thread predicts four
   /// positions in the next 5 to 200 ms and reads the pages that queries there need. Each call
   /// replaces the motion before. Call it with every query, since a motion is used once.

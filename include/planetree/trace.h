@@ -24,7 +24,7 @@ struct PageAccess {
   };
   /// The query that looked the page up or waits for it. Fetch threads make queries too.
   enum class Query : std::uint8_t {
-    kClosestPoint,  ///< Probe::closest_point or closest_points
+    kClosestPoint,  ///< Probe::closest_point, closest_points or a search for triangles
     kContains,      ///< Probe::contains
     kFetch,         ///< of a fetch thread, for a query that lacked pages or waits for them
     kPrefetch,      ///< of a fetch thread, for a motion

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -215,6 +216,12 @@ struct ClosestPoint {
   /// Returns -distance if `side` is kInside, else distance, also for kOnSurface and kUnknown. It is
   /// infinite if `distance` is.
   double signed_distance() const noexcept { return side == Side::kInside ? -distance : distance; }
+};
+
+/// How many triangles a query found, see Probe::nearest_triangles.
+struct Found {
+  std::size_t count = 0;  ///< answers written
+  bool complete = false;  ///< whether no other triangle belongs to the set
 };
 
 /// The answer to a query for the side alone.

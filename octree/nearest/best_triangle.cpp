@@ -6,16 +6,12 @@
 
 #include "octree/geometry/error_bounds.h"
 #include "octree/geometry/strict_math.h"
+#include "octree/nearest/interval_ends.h"
 
 namespace planetree::octree {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-double down(double value) { return std::max(0.0, value - std::fabs(value) * kEndRounding); }
-double up(double value) {
-  return value + value * kEndRounding + std::numeric_limits<double>::min();
-}
 
 // Lower bound on the distance to the model, from its box alone.
 double distance_to_box(const TreeInfo& tree, const Point& query) {
@@ -37,9 +33,10 @@ NearestAnswer nothing_read(const TreeInfo& tree, const Point& query, double lowe
   NearestAnswer answer;
   const double distance = (query - tree.sample).norm();
   answer.point = tree.sample;
-  answer.upper = std::min(up(distance * (1 + kNormRounding) + kUnresolvedLength), up(within));
+  answer.upper =
+      std::min(upper_end(distance * (1 + kNormRounding) + kUnresolvedLength), upper_end(within));
   answer.distance = answer.upper;
-  answer.lower = std::min(lower, down(distance * (1 - kNormRounding) - kUnresolvedLength));
+  answer.lower = std::min(lower, lower_end(distance * (1 - kNormRounding) - kUnresolvedLength));
   answer.feature = Feature::kVertex;
   answer.status = Status::kDegraded;
   return answer;
@@ -48,9 +45,9 @@ NearestAnswer nothing_read(const TreeInfo& tree, const Point& query, double lowe
 // Answers by the coarse field where no triangle was found. `lower` bounds what was skipped.
 void answer_with(const FieldBounds& bounds, double lower, NearestAnswer& answer) {
   answer.point = bounds.point;
-  answer.upper = up(bounds.upper);
+  answer.upper = upper_end(bounds.upper);
   answer.distance = answer.upper;
-  answer.lower = down(std::max(bounds.lower, lower));
+  answer.lower = lower_end(std::max(bounds.lower, lower));
   answer.feature = Feature::kVertex;
   answer.barycentric = {};
 }
@@ -65,8 +62,8 @@ bool may_matter(float bound, const BestTriangle& best) {
 void answer_with(const BestTriangle& best, NearestAnswer& answer) {
   best.write_nearest(answer);
   answer.distance = std::sqrt(answer.value.squared);
-  answer.lower = down(best.lower());
-  answer.upper = up(answer.distance + answer.value.error);
+  answer.lower = lower_end(best.lower());
+  answer.upper = upper_end(answer.distance + answer.value.error);
   answer.triangle = best.triangle();
   answer.corners = best.corners();
   answer.is_height_field = best.is_height_field();
@@ -101,8 +98,8 @@ bool has_point(const Point& query, const NearestAnswer& answer, double upper) {
 void narrow(const Point& query, const NearestLimits& limits, NearestAnswer& answer) {
   if (!limits.field || limits.field->is_empty()) return;
   const FieldBounds bounds = bounds_of(*limits.field, query);
-  const double lower = std::max(answer.lower, down(bounds.lower));
-  const double field_upper = up(bounds.upper);
+  const double lower = std::max(answer.lower, lower_end(bounds.lower));
+  const double field_upper = upper_end(bounds.upper);
   // Within an error, the triangle found is near enough: its distance stays in the interval.
   const bool keeps_upper = answer.status == Status::kWithinError &&
                            answer.triangle != kNoTriangle && is_within_error(answer, limits);
@@ -141,7 +138,7 @@ void narrow(const Point& query, const NearestLimits& limits, NearestAnswer& answ
   }
   if (is_incomplete) {
     answer.lower = std::min(answer.lower, bound_of(skipped.unread));
-    answer.upper = std::min(answer.upper, up(skipped.within));
+    answer.upper = std::min(answer.upper, upper_end(skipped.within));
     answer.status = Status::kDegraded;
   }
   narrow(query, limits, answer);

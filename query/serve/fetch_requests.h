@@ -18,6 +18,9 @@ struct FetchRequest {
   std::uint64_t parts = 0;
   std::uint64_t side_rule = 0;
   std::uint64_t normal_rule = 0;
+  /// For a search for triangles: how many within which radius; 0: for the closest point.
+  std::uint64_t triangles = 0;
+  double radius = 0;
 };
 
 /// Position and velocity of a probe, as given to Probe::motion.

@@ -37,6 +37,13 @@ class FetchProbe {
   /// stop     once true, the call gives up before the next missing page
   virtual void fetch_pages(const Vec3& query, const QueryOptions& options, FetchReason reason,
                            const std::atomic<bool>& stop) noexcept = 0;
+  /// Makes the pages resident that a search for triangles needs.
+  ///
+  /// radius, count  the nearest `count` triangles within `radius`, model units
+  /// options, stop  as above
+  virtual void fetch_triangles(const Vec3& query, double radius, std::uint64_t count,
+                               const QueryOptions& options,
+                               const std::atomic<bool>& stop) noexcept = 0;
   /// Reads one page that a blocking query waits for. Returns false if there is none.
   virtual bool read_awaited_page() noexcept = 0;
 };

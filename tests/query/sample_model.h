@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "planetree/build.h"
 #include "planetree/model.h"
 #include "planetree/probe.h"
 #include "tests/octree/support/sample_tree.h"
@@ -56,7 +57,7 @@ class SampleModel {
 };
 
 /// Builds the .ptree file of a soup by the public interface, with pages of 4096 bytes.
-void build_soup(const Soup& soup, const std::filesystem::path& path);
+void build_soup(const Soup& soup, const std::filesystem::path& path, BuildOptions options = {});
 
 Probe make_probe(const Model& model);
 

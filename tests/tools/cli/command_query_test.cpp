@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "tests/tools/cli/command_fixture.h"
 
@@ -120,6 +123,44 @@ TEST_F(QueryCommand, AnswersWithoutWaiting) {
   const auto lines = lines_of(run({"query", "tree.ptree", "--never-wait"}, "14,14,9\n").output);
   ASSERT_EQ(lines.size(), 2u);
   EXPECT_EQ(lines[0], kHeader);
+}
+
+// A tetrahedron: three faces are the coordinate planes, and one leans.
+TEST_F(QueryCommand, ListsTheTrianglesAboutPoints) {
+  const std::string point = "0.125,0.25,-0.5\n";
+  const Outcome all = run({"query", "solid.ptree", "--nearest", "9", "--format", "jsonl"}, point);
+  ASSERT_EQ(all.status, 0) << all.errors;
+  std::vector<Json> rows;
+  std::istringstream lines(all.output);
+  for (std::string line; std::getline(lines, line);) rows.push_back(Json::parse(line));
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows[0]["triangle"], 0);
+  EXPECT_EQ(rows[0]["distance"], 0.5);
+  EXPECT_EQ(rows[0]["nz"], -1);
+  EXPECT_EQ(rows[1]["triangle"], 2) << "the face in x = 0";
+  EXPECT_EQ(rows[1]["nx"], -1);
+  for (const Json& row : rows) {
+    EXPECT_EQ(row["side"], "outside");
+    EXPECT_EQ(row["status"], "exact");
+  }
+  const auto count_rows = [&](std::vector<std::string> options, const std::string& points) {
+    options.insert(options.begin(), {"query", "solid.ptree"});
+    const std::string text = run(options, points).output;
+    return std::count(text.begin(), text.end(), '\n') - 1;
+  };
+  EXPECT_EQ(count_rows({"--nearest", "2"}, point + point), 4);
+  EXPECT_EQ(count_rows({"--within", "0.5"}, point), 1);
+  EXPECT_EQ(count_rows({"--within", "10"}, point), 4);
+  EXPECT_EQ(count_rows({"--within", "10", "--nearest", "3"}, point), 3);
+}
+
+TEST_F(QueryCommand, SaysWhyAPointHasNoTriangle) {
+  const Outcome result = run({"query", "solid.ptree", "--within", "0.1"}, "5,0,0\nnan,0,0\n");
+  EXPECT_EQ(result.output, std::string(kHeader) +
+                               "\n5,0,0,inf,0.1,inf,unknown,0,0,0,0,0,1,,face,beyond_max_distance\n"
+                               "nan,0,0,inf,0,inf,unknown,0,0,0,0,0,1,,face,bad_query\n");
+  EXPECT_EQ(run({"query", "solid.ptree", "--nearest", "0"}, "0,0,0\n").status, 2);
+  EXPECT_EQ(run({"query", "solid.ptree", "--within", "1", "--contains"}, "0,0,0\n").status, 2);
 }
 
 TEST_F(QueryCommand, TakesColumns) {

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+
+#include "octree/geometry/triangle_distance.h"
+#include "octree/traversal/tree_view.h"
+
+namespace planetree::octree {
+
+class WorkLimit;
+
+/// Receives the triangles that near_triangles() finds, in any order, each once.
+class NearTriangleSink {
+ public:
+  virtual ~NearTriangleSink() = default;
+
+  /// Distance beyond which no triangle is wanted, as triangles are evaluated; model frame. It may
+  /// shrink while triangles are taken.
+  virtual double reach() const noexcept = 0;
+  /// Takes a triangle. Its distance may exceed reach().
+  virtual void take(const TriangleResult& result, const Triangle& corners,
+                    std::uint64_t index) noexcept = 0;
+};
+
+/// Finds the triangles near a query by a traversal of the tree, nearest child first.
+///
+/// query    model frame, no coordinate beyond kMaxQueryCoordinate.
+/// work     counters that the traversal adds to; `limit` counts its units.
+/// return   a lower bound on the distance of every triangle within sink.reach() that was not taken
+///          because its page was missing or the work was spent; infinity if there is none.
+/// threads  any; no allocation, no lock, no exception of its own.
+/// source   as nearest().
+double near_triangles(const TreeInfo& tree, const Point& query, NearTriangleSink& sink,
+                      WorkLimit& limit, const PageReader& pages, TraversalStats& work) noexcept;
+
+}  // namespace planetree::octree
