@@ -122,6 +122,8 @@ class PageCache {
                             const std::atomic<bool>& stop) noexcept;
   void wake_helpers() noexcept;
 
+  std::uint32_t frame_count() const noexcept { return frames_.frame_count(); }
+
   /// Returns the counts and sizes.
   /// threads  any; takes no lock.
   CacheStats stats() const noexcept;

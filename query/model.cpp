@@ -259,7 +259,7 @@ Stats ModelState::stats() const noexcept {
     stats.fetch_requests += fetch_requests.missed.store_count();
   if (fetch_threads_) {
     stats.fetch_requests_served = fetch_threads_->fetch_requests_served();
-    stats.positions_prefetched = fetch_threads_->positions_prefetched();
+    stats.pages_prefetched = fetch_threads_->pages_prefetched();
   }
   stats.layers = pager_->opened().layers;
   stats.frames = cache.frame_count;

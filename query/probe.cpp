@@ -111,22 +111,25 @@ Containment ProbeState::contains(const Vec3& query, const QueryOptions& options)
   return search_side(query, options, scaled, lookup);
 }
 
-void ProbeState::fetch_pages(const Vec3& query, const QueryOptions& options, FetchReason reason,
-                             const std::atomic<bool>& stop) noexcept {
+std::uint32_t ProbeState::fetch_pages(const Vec3& query, const QueryOptions& options,
+                                      FetchReason reason, const std::atomic<bool>& stop) noexcept {
   assert(options.wait == Wait::kForPages && options.max_work != QueryOptions::kNoLimit);
-  if (!is_valid(query, options)) return;
+  const bool is_prefetch = reason != FetchReason::kMissed;
+  if (!is_valid(query, options) ||
+      (is_prefetch && model_.cache.frame_count() < kMinFramesToPrefetch))
+    return 0;
   coherence_.is_on = coherence_.follows_motion = reason == FetchReason::kMotion;
   PageAccessor accessor(reader_, options.wait, model_.fetcher_terms, &stop);
   if (trace_) {
-    trace_->begin_query(
-        reason == FetchReason::kMissed ? PageAccess::Query::kFetch : PageAccess::Query::kPrefetch,
-        options.wait);
+    trace_->begin_query(is_prefetch ? PageAccess::Query::kPrefetch : PageAccess::Query::kFetch,
+                        options.wait);
     accessor.set_trace(trace_);
   }
   ClosestPoint unused = unanswered(Status::kExact);
   octree::TraversalStats work;
   query::closest_point({model_.geometry, accessor.pages(), coherence_, work}, query, options,
                        unused);
+  return accessor.fetched();
 }
 
 Found ProbeState::find_triangles(const TriangleSetQuery& query, std::span<ClosestPoint> found,

@@ -69,8 +69,8 @@ class ProbeState {
     if (trace_) trace_->set_in_batch(in_batch);
   }
   /// See FetchProbe::fetch_pages.
-  void fetch_pages(const Vec3& query, const QueryOptions& options, FetchReason reason,
-                   const std::atomic<bool>& stop) noexcept;
+  std::uint32_t fetch_pages(const Vec3& query, const QueryOptions& options, FetchReason reason,
+                            const std::atomic<bool>& stop) noexcept;
   /// See FetchProbe::fetch_triangles.
   void fetch_triangles(const TriangleSetQuery& query, std::uint64_t count,
                        const QueryOptions& options, const std::atomic<bool>& stop) noexcept;
@@ -98,6 +98,9 @@ class ProbeState {
                           const octree::SideGrid::Lookup& lookup) noexcept;
   Containment find_front(const Vec3& query, QueryOptions options) noexcept;
   Containment leave_unknown(const QueryOptions& options) noexcept;
+  // With fewer frames, pages prefetched displace pages that the next queries need.
+  static constexpr std::uint32_t kMinFramesToPrefetch = 8;
+
   void note_degraded(double width, bool missed) noexcept;
   void request(const Vec3& query, const QueryOptions& options, std::uint32_t parts,
                std::uint64_t triangles = 0, double radius = 0) noexcept;
@@ -136,9 +139,9 @@ class QueryingFetchProbe final : public FetchProbe {
   QueryingFetchProbe(const ServingModel& model, cache::Reader reader)
       : probe_(ProbeState::create(model, std::move(reader))) {}
 
-  void fetch_pages(const Vec3& query, const QueryOptions& options, FetchReason reason,
-                   const std::atomic<bool>& stop) noexcept override {
-    probe_->fetch_pages(query, options, reason, stop);
+  std::uint32_t fetch_pages(const Vec3& query, const QueryOptions& options, FetchReason reason,
+                            const std::atomic<bool>& stop) noexcept override {
+    return probe_->fetch_pages(query, options, reason, stop);
   }
   void fetch_triangles(const Vec3& query, double radius, std::uint64_t count,
                        const QueryOptions& options,

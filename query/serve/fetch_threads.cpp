@@ -85,9 +85,10 @@ bool FetchWorker::prefetch_position(std::size_t index) noexcept {
     progress.motion.take(motion, clock_());
   if (!progress.motion.has_next()) return false;
   const MotionPrefetch::Ahead ahead = progress.motion.next(slowest_fetch_);
-  probe_->fetch_pages(ahead.position, blocking_options(ahead.parts, ahead.side_rule),
-                      ahead.searches_side ? FetchReason::kMotionOfSides : FetchReason::kMotion,
-                      stop_);
+  const std::uint32_t pages = probe_->fetch_pages(
+      ahead.position, blocking_options(ahead.parts, ahead.side_rule),
+      ahead.searches_side ? FetchReason::kMotionOfSides : FetchReason::kMotion, stop_);
+  pages_prefetched_.fetch_add(pages, std::memory_order_relaxed);
   return true;
 }
 
@@ -144,8 +145,8 @@ void FetchThreads::run(FetchWorker& worker) noexcept {
       continue;
     }
     last = Clock::now();
-    (action == FetchWorker::Action::kServedRequest ? requests_served_ : positions_prefetched_)
-        .fetch_add(1, std::memory_order_relaxed);
+    if (action == FetchWorker::Action::kServedRequest)
+      requests_served_.fetch_add(1, std::memory_order_relaxed);
   }
 }
 
@@ -172,6 +173,12 @@ Result<std::unique_ptr<FetchThreads>> FetchThreads::start(
   } catch (const std::system_error&) {
     return refused();
   }
+}
+
+std::uint64_t FetchThreads::pages_prefetched() const noexcept {
+  std::uint64_t pages = 0;
+  for (const auto& worker : workers_) pages += worker->pages_prefetched();
+  return pages;
 }
 
 FetchThreads::~FetchThreads() {

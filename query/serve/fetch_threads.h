@@ -35,8 +35,9 @@ class FetchProbe {
   /// options  Wait::kForPages with limited work. Such a query starts from the root, since the
   ///          coherence of this probe does not tell which pages are resident.
   /// stop     once true, the call gives up before the next missing page
-  virtual void fetch_pages(const Vec3& query, const QueryOptions& options, FetchReason reason,
-                           const std::atomic<bool>& stop) noexcept = 0;
+  /// return   number of pages that were not resident and are now
+  virtual std::uint32_t fetch_pages(const Vec3& query, const QueryOptions& options,
+                                    FetchReason reason, const std::atomic<bool>& stop) noexcept = 0;
   /// Makes the pages resident that a search for triangles needs.
   ///
   /// radius, count  the nearest `count` triangles within `radius`, model units
@@ -71,6 +72,11 @@ class FetchWorker {
   /// come before prefetching. If there are both, they alternate.
   Action work() noexcept;
 
+  /// Number of pages read for moving probes so far. Any thread may call it.
+  std::uint64_t pages_prefetched() const noexcept {
+    return pages_prefetched_.load(std::memory_order_relaxed);
+  }
+
  private:
   struct Progress {
     // Sequence numbers of the last values loaded, see SeqLock.
@@ -92,6 +98,7 @@ class FetchWorker {
   std::size_t next_index_ = 0;      // probe served next; they take turns
   bool awaited_page_was_last_ = false;
   Seconds slowest_fetch_{0};  // decaying maximum, see note_fetch_time()
+  std::atomic<std::uint64_t> pages_prefetched_{0};
 };
 
 /// A model's fetch threads, with one FetchWorker each. A blocking query wakes them. A real-time
@@ -120,9 +127,7 @@ class FetchThreads {
   std::uint64_t fetch_requests_served() const noexcept {
     return requests_served_.load(std::memory_order_relaxed);
   }
-  std::uint64_t positions_prefetched() const noexcept {
-    return positions_prefetched_.load(std::memory_order_relaxed);
-  }
+  std::uint64_t pages_prefetched() const noexcept;
 
  private:
   explicit FetchThreads(cache::PageCache& cache) : cache_(cache) {}
@@ -133,7 +138,6 @@ class FetchThreads {
   std::vector<std::thread> threads_;
   std::atomic<bool> stopping_{false};
   std::atomic<std::uint64_t> requests_served_{0};
-  std::atomic<std::uint64_t> positions_prefetched_{0};
 };
 
 }  // namespace planetree::query

@@ -13,6 +13,9 @@ namespace planetree::query {
 /// use it.
 ///
 /// - The horizon covers twice the time that a fetch takes and twice the time from motion to motion.
+/// - All positions but the last are those of a probe that goes on turning as it turned between the
+///   last two motions. The last one is straight ahead, because errors of the turn grow with the
+///   square of the time.
 /// - A probe that is suddenly much faster was moved elsewhere. Its motion predicts nothing and is
 ///   left out.
 /// - Queries of a probe that goes along the surface seldom search for the side: faces or the last
@@ -29,7 +32,7 @@ class MotionPrefetch {
   /// A motion more than this many times as fast as the one before it is left out.
   static constexpr double kMaxSpeedUp = 4;
   /// Number of motions after a search for a side in which prefetches search for sides.
-  static constexpr std::uint32_t kMotionsAfterSearch = 200;
+  static constexpr std::uint32_t kMotionsAfterSearch = 16;
 
   /// A position to prefetch.
   struct Ahead {
@@ -51,9 +54,12 @@ class MotionPrefetch {
   Ahead next(Seconds fetch_time) noexcept;
 
  private:
+  static bool is_as_fast(const Motion& motion, const Motion& other) noexcept;
   void compare_with_last(const Motion& motion, Seconds now) noexcept;
+  Vec3 turned(Seconds time) const noexcept;
 
   Motion motion_;  // the last one
+  Vec3 change_;    // of the velocity since the motion before it
   bool has_motion_ = false;
   unsigned left_ = 0;  // number of positions
   std::uint32_t motions_since_search_ = kMotionsAfterSearch;

@@ -69,6 +69,9 @@ class PageAccessor {
     return nullptr;
   }
 
+  /// Number of pages that were missing and were fetched.
+  std::uint32_t fetched() const noexcept { return fetched_; }
+
   /// Whether the query went on without a page: it may not wait, or its wait was given up.
   bool missed() const noexcept { return missed_; }
 
@@ -106,6 +109,7 @@ class PageAccessor {
       missed_ = true;
       may_wait_ = false;
     }
+    if (fetched.frame) ++fetched_;
     return fetched.frame;
   }
 
@@ -148,6 +152,7 @@ class PageAccessor {
   bool may_wait_;  // false for good after a wait was given up
   bool missed_ = false;
   std::uint32_t lookups_ = 0;
+  std::uint32_t fetched_ = 0;
 };
 
 inline const octree::MissHook PageAccessor::kMissHook = {

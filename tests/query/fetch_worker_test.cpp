@@ -222,6 +222,19 @@ TEST_F(FetchWorkerSimulation, RequestsComeBeforeMotionPrefetches) {
   EXPECT_EQ(worker.work(), FetchWorker::Action::kNone);
 }
 
+// The pages of a few frames are those of the next query.
+TEST_F(FetchWorkerSimulation, PrefetchesNothingWithFewFrames) {
+  for (std::uint64_t more_frames = 0; more_frames < 6; ++more_frames) {
+    const Model model = open(storage::FileCalls::real(), more_frames * 4096);
+    FetchWorker worker = fetch_worker(ModelState::of(model), &simulated_time, never_);
+    Probe probe = make_probe(model);
+    probe.motion({-1.2, 0, 0}, {100, 0, 0});
+    for (int left = 4; left > 0; --left)
+      EXPECT_EQ(worker.work(), FetchWorker::Action::kPrefetchedPosition);
+    EXPECT_EQ(worker.pages_prefetched() > 0, model.stats().frames >= 8) << model.stats().frames;
+  }
+}
+
 // The worker knows from the motion whether a probe searches for sides.
 TEST_F(FetchWorkerSimulation, MotionTellsThatAQueryHadToSearchForTheSide) {
   const Model model = open(storage::FileCalls::real(), 64 << 20);

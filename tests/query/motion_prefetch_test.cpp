@@ -49,6 +49,44 @@ TEST(MotionPrefetch, HorizonCoversTwoMotions) {
   EXPECT_NEAR(ahead_of(prefetch, 0).back(), 0.04, 0.001);
 }
 
+// On a circle, a straight line would miss by the square of the time.
+TEST(MotionPrefetch, FollowsATurnExceptAtTheLastPosition) {
+  constexpr double kTurnsPerSecond = 40;
+  const auto motion_at = [](double time) {
+    const double angle = kTurnsPerSecond * time;
+    return Motion{{std::cos(angle), std::sin(angle), 0},
+                  {-kTurnsPerSecond * std::sin(angle), kTurnsPerSecond * std::cos(angle), 0}};
+  };
+  MotionPrefetch prefetch;
+  constexpr int kMotions = 100;
+  for (int i = 0; i <= kMotions; ++i) prefetch.take(motion_at(1e-3 * i), Seconds(1e-3 * i));
+  const double step = MotionPrefetch::kMinHorizon.count() / MotionPrefetch::kPositions;
+  for (unsigned at = 1; prefetch.has_next(); ++at) {
+    const double time = step * at, angle = kTurnsPerSecond * time;
+    const Vec3 ahead = prefetch.next({}).position;
+    const Vec3 there = motion_at(1e-3 * kMotions + time).position;
+    const double miss = std::hypot(ahead.x - there.x, ahead.y - there.y);
+    if (at < MotionPrefetch::kPositions)
+      EXPECT_LT(miss, 0.35 * angle * angle / 2) << at;
+    else
+      EXPECT_NEAR(miss, angle * angle / 2, 0.05 * angle * angle) << at;
+  }
+}
+
+// A velocity that is not known well seems to turn wildly.
+TEST(MotionPrefetch, TurnIsAtMostAsLongAsTheWay) {
+  MotionPrefetch prefetch;
+  for (int i = 0; i < 50; ++i) {
+    const double sign = i % 2 == 0 ? 1 : -1;
+    prefetch.take({{0, 0, 0}, {1, 3 * sign, 0}}, Seconds(1e-4 * i));
+  }
+  const double step = MotionPrefetch::kMinHorizon.count() / MotionPrefetch::kPositions;
+  for (unsigned at = 1; prefetch.has_next(); ++at) {
+    const Vec3 ahead = prefetch.next({}).position;
+    EXPECT_LE(std::hypot(ahead.x, ahead.y), 2.001 * std::sqrt(10.0) * step * at);
+  }
+}
+
 TEST(MotionPrefetch, NewerMotionReplacesThePositionsLeft) {
   MotionPrefetch prefetch;
   prefetch.take(moving(0, 1), Seconds(0));

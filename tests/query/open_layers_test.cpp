@@ -189,7 +189,7 @@ TEST_F(OpenLayersOfModels, ReadNoSidePage) {
     probe.contains(queries, contained);
     const Stats stats = model.stats();
     EXPECT_EQ(stats.quarantined_pages, 0u);
-    EXPECT_GT(stats.positions_prefetched + stats.pages_read, 0u);
+    EXPECT_GT(stats.pages_read, 0u);
     EXPECT_LE(stats.pages_read, header_of(name).first_cap_page());
   }
 }

@@ -7,6 +7,7 @@
 #include "planetree/probe.h"
 #include "tests/query/answer_bits.h"
 #include "tests/query/eventually.h"
+#include "tests/query/fetch_steps.h"
 #include "tests/query/sample_model.h"
 
 namespace planetree::query {
@@ -130,13 +131,33 @@ TEST_F(RealTime, StopsAtMaxWork) {
   EXPECT_EQ(model.stats().fetch_requests_served, fetch_requests);
 }
 
+// Number of pages that a fetch thread reads for this motion, if no page is resident but the first
+// ones.
+std::uint64_t pages_ahead(const SampleModel& sample, const Motion& motion) {
+  OpenOptions options;
+  options.max_probes = 2;
+  const auto model = ModelState::open_model(sample.path(), options, {.starts_fetching = false});
+  const std::atomic<bool> never{false};
+  FetchWorker worker = fetch_worker(
+      ModelState::of(*model), [] { return FetchWorker::Seconds(1); }, never);
+  Probe probe = make_probe(*model);
+  probe.motion(motion.position, motion.velocity);
+  while (worker.work() != FetchWorker::Action::kNone) {
+  }
+  return worker.pages_prefetched();
+}
+
 TEST_F(RealTime, PrefetchesAlongAMotion) {
   const Model model = sample_.open();
   Probe probe = make_probe(model);
   // At least 5 ms ahead, the probe will be at the other end.
-  probe.motion({-1.2, 0, 0}, {2.4 / 0.005, 0, 0});
-  ASSERT_TRUE(eventually([&] { return model.stats().positions_prefetched == 4; }));
+  const Motion motion{{-1.2, 0, 0}, {2.4 / 0.005, 0, 0}};
+  const std::uint64_t pages = pages_ahead(sample_, motion);
+  EXPECT_GT(pages, 3u);
+  probe.motion(motion.position, motion.velocity);
+  ASSERT_TRUE(eventually([&] { return model.stats().pages_prefetched == pages; }));
   EXPECT_EQ(probe.closest_point({1.2, 0, 0}, kAtOnce).status, Status::kExact);
+  EXPECT_EQ(model.stats().fetch_requests, 0u);
 }
 
 TEST_F(RealTime, ManyProbesAreServedByFewThreads) {

@@ -87,7 +87,7 @@ nlohmann::ordered_json session_report(const TouchArguments& arguments, const Tou
           {"quarantined_pages", stats.quarantined_pages},
           {"fetch_requests_served", stats.fetch_requests_served},
           {"fetch_requests", stats.fetch_requests},
-          {"positions_prefetched", stats.positions_prefetched},
+          {"pages_prefetched", stats.pages_prefetched},
           {"page_trace_dropped", stats.page_trace_dropped},
           {"frames", stats.frames},
           {"budget_bytes", stats.budget_bytes - trace_bytes},

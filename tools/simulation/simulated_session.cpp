@@ -100,10 +100,9 @@ SimulatedRecord SimulatedSession::run(std::span<const Vec3> path, const Sink& si
   disk_.on_read({});
   drain();
   const std::uint64_t served = record_.stats.fetch_requests_served;
-  const std::uint64_t prefetched = record_.stats.positions_prefetched;
   record_.stats = model_->stats();
   record_.stats.fetch_requests_served = served;
-  record_.stats.positions_prefetched = prefetched;
+  record_.stats.pages_prefetched = worker_->pages_prefetched();
   running_clock = outer_clock;
   return std::move(record_);
 }
@@ -155,7 +154,6 @@ void SimulatedSession::let_worker_act() {
   begin_event(next_look_ns_);
   const Action action = worker_->work();
   record_.stats.fetch_requests_served += action == Action::kServedRequest;
-  record_.stats.positions_prefetched += action == Action::kPrefetchedPosition;
   if (action != Action::kNone) {
     last_action_ns_ = clock_.now_ns();
     next_look_ns_ = last_action_ns_ + kActionNs;

@@ -59,7 +59,7 @@ TEST_F(SimulatedSessions, PrefetchNothingWithoutMotion) {
   std::vector<PageAccess> records;
   const SimulatedRecord record = simulate(options, tips, records);
   EXPECT_EQ(record.prefetch.read, 0u);
-  EXPECT_EQ(record.stats.positions_prefetched, 0u);
+  EXPECT_EQ(record.stats.pages_prefetched, 0u);
   EXPECT_GT(record.stats.fetch_requests_served, 0u);
   for (const PageAccess& access : records) {
     EXPECT_NE(access.event, PageAccess::Event::kMotion);
