@@ -19,6 +19,15 @@ namespace {
   std::abort();
 }
 
+std::uint64_t least_budget(const std::filesystem::path& model, EvictionPolicy policy) {
+  OpenOptions options;
+  options.max_probes = 1;
+  options.policy = policy;
+  const auto least = query::ModelState::min_budget_bytes(model, options);
+  if (!least) fail(least.error().text);
+  return *least;
+}
+
 void drain(const Model& model, TraceAnalysis& analysis) {
   std::array<PageAccess, 1024> accesses;
   for (std::size_t got = accesses.size(); got == accesses.size();) {
@@ -82,17 +91,13 @@ std::vector<EngineComparison> compare_engine(const EngineWork& work, std::size_t
   constexpr std::uint64_t kTraceBytes = std::uint64_t{256} << 20;
   const EngineRun traced = run_engine(work, EvictionPolicy::kClock, most + kTraceBytes, true);
   const References& references = traced.analysis.references();
-  OpenOptions options;
-  options.max_probes = 1;
-  const auto least = query::ModelState::min_budget_bytes(work.model, options);
-  if (!least) fail(least.error().text);
-  const double ratio = static_cast<double>(most) / static_cast<double>(*least);
   std::vector<EngineComparison> comparisons;
   for (std::size_t i = 0; i < budgets; ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(budgets - 1);
-    const double bytes = static_cast<double>(*least) * std::pow(ratio, share);
     for (const EvictionPolicy policy : kAllPolicies) {
-      const auto budget = static_cast<std::uint64_t>(bytes) + 4096;  // tables differ by policy
+      const double least = static_cast<double>(least_budget(work.model, policy));
+      const auto budget = static_cast<std::uint64_t>(
+          std::ceil(least * std::pow(static_cast<double>(most) / least, share)));
       const EngineRun run = run_engine(work, policy, budget, false);
       const std::uint32_t frames[] = {run.frames};
       comparisons.push_back({policy, budget, run.frames, run.misses,
