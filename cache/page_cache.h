@@ -123,6 +123,8 @@ class PageCache {
   void wake_helpers() noexcept;
 
   std::uint32_t frame_count() const noexcept { return frames_.frame_count(); }
+  /// Whether each page that may be fetched has a frame, so that none is evicted.
+  bool holds_all_pages() const noexcept { return frame_count() >= limits_.used_pages(); }
 
   /// Returns the counts and sizes.
   /// threads  any; takes no lock.

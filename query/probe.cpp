@@ -116,7 +116,8 @@ std::uint32_t ProbeState::fetch_pages(const Vec3& query, const QueryOptions& opt
   assert(options.wait == Wait::kForPages && options.max_work != QueryOptions::kNoLimit);
   const bool is_prefetch = reason != FetchReason::kMissed;
   if (!is_valid(query, options) ||
-      (is_prefetch && model_.cache.frame_count() < kMinFramesToPrefetch))
+      (is_prefetch && model_.cache.frame_count() < kMinFramesToPrefetch &&
+       !model_.cache.holds_all_pages()))
     return 0;
   coherence_.is_on = coherence_.follows_motion = reason == FetchReason::kMotion;
   PageAccessor accessor(reader_, options.wait, model_.fetcher_terms, &stop);

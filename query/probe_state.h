@@ -98,7 +98,8 @@ class ProbeState {
                           const octree::SideGrid::Lookup& lookup) noexcept;
   Containment find_front(const Vec3& query, QueryOptions options) noexcept;
   Containment leave_unknown(const QueryOptions& options) noexcept;
-  // With fewer frames, pages prefetched displace pages that the next queries need.
+  // With fewer frames, pages prefetched displace pages that the next queries need, unless no page
+  // is ever displaced.
   static constexpr std::uint32_t kMinFramesToPrefetch = 8;
 
   void note_degraded(double width, bool missed) noexcept;

@@ -69,7 +69,7 @@ class ClosestPointQuery {
     const SideResult& side = (parts & kSide) != 0 ? find_side(nearest, with_normal) : side_result_;
     if (with_normal)
       find_normal(nearest, side);
-    else if ((parts & kNormal) != 0 && has_point_alone())
+    else if ((parts & kNormal) != 0 && answer_.status != Status::kBeyondMaxDistance)
       find_direction(nearest);
     return incomplete_;
   }
@@ -173,8 +173,7 @@ class ClosestPointQuery {
     if (answer_.status == Status::kWithinError && !is_within_error) mark_degraded();
   }
 
-  // Accepts an answer that lacks pages or work, of a search for an exact one, if its interval is
-  // narrow enough all the same.
+  // Accepts an answer that lacks pages or work, sought as an exact one, if it is narrow enough.
   void accept_within_error(const octree::NearestAnswer& nearest) {
     if (!incomplete_ || !may_err() || nearest.triangle == kNoTriangle ||
         nearest.distance > nearest.upper || answer_.status != Status::kDegraded ||
@@ -266,11 +265,6 @@ class ClosestPointQuery {
     const octree::Point normal = contact_normal(point_, nearest, faces, oriented, limit);
     answer_.normal = {normal.x(), normal.y(), normal.z()};
     if (!faces.complete || !oriented.winding_is_known || limit.exceeded()) mark_degraded();
-  }
-
-  // Whether the answer has a point and may do without a triangle.
-  bool has_point_alone() const {
-    return answer_.status == Status::kWithinError || answer_.status == Status::kDegraded;
   }
 
   // Sets the normal of an answer without a triangle: the direction from its point to the query, or,

@@ -36,7 +36,7 @@ TEST_F(PageTraceTest, SameRunGivesTheSameTrace) {
 
 // The pages that are in memory by the records of pages read and evicted explain each lookup.
 TEST_F(PageTraceTest, LookupsFollowFromPagesReadAndEvicted) {
-  const Model model = open_small();
+  const Model model = open_small(8);  // with fewer frames nothing is prefetched
   std::vector<PageAccess> all = wander(model);
   Probe probe = make_probe(model);
   const std::vector<Vec3> points = random_queries(60, -1.2, 1.2, 7);
