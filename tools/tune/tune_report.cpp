@@ -172,10 +172,13 @@ OptionsToSet options_to_set(const TuneRecord& record) {
                     short_bytes(recommended->memory_bytes), short_bytes(recommended->low_bytes),
                     short_bytes(recommended->high_bytes));
   } else if (!record.curves.frames.empty()) {
-    const std::uint64_t bytes = record.memory_for(record.curves.frames[record.knee]);
-    kib = whole_kib(bytes);
-    options.purpose = fmt::format("the knee of clock's curve, with {}: more memory saves little",
-                                  short_bytes(bytes));
+    const std::uint32_t frames = record.curves.frames[record.knee];
+    options.purpose = fmt::format("the knee of clock's curve, {} frames: more save little", frames);
+    if (record.model.empty()) {
+      options.in_program = options.on_command_line = "name the model by --model to get the budget";
+      return options;
+    }
+    kib = whole_kib(record.memory_for(frames));
   }
   options.in_program =
       fmt::format("{{.memory_budget_bytes = {}, .max_probes = 1, .policy = EvictionPolicy::{}}}",

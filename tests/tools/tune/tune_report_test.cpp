@@ -56,6 +56,9 @@ TEST(TuneReport, NamesTheKneeWithoutAGoalThatIsKept) {
   EXPECT_NE(text.find("--memory " + knee + "K --policy clock"), std::string::npos) << text;
   record.recommended.reset();
   EXPECT_NE(tune_words(record).find("--memory " + knee + "K"), std::string::npos);
+  record.model.clear();
+  EXPECT_EQ(tune_words(record).find("--memory "), std::string::npos);
+  EXPECT_NE(tune_words(record).find("name the model by --model"), std::string::npos);
   EXPECT_TRUE(nlohmann::json::parse(tune_json(record))["recommended"].is_null());
 }
 
