@@ -20,7 +20,7 @@ void append_little_endian(std::uint64_t value, int bytes, std::string& text) {
 }  // namespace
 
 void LookupExport::add(const PageAccess& access) {
-  if (!is_counted_lookup(access)) return;
+  if (!is_counted_lookup(access) || access.page == References::kRootPage) return;
   lookups_.push_back({static_cast<std::uint32_t>(access.time_ns / 1'000'000'000),
                       static_cast<std::uint32_t>(access.time_ns / 1000 % 1'000'000), access.page});
 }

@@ -13,8 +13,8 @@
 namespace planetree::tools {
 
 /// The page lookups of queries as a trace for public simulators of caches. It has the lookups that
-/// TraceAnalysis counts, the root's included, and none of Model::open. All pages have the size of a
-/// decoded page.
+/// TraceAnalysis counts, without those of the root, which is pinned. So a simulator's cache of one
+/// page less has the misses of a number of frames. All pages have the size of a decoded page.
 class LookupExport {
  public:
   enum class Format : std::uint8_t {

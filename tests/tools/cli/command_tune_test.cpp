@@ -65,7 +65,9 @@ TEST_F(CommandTune, ExportsLookups) {
   EXPECT_EQ(csv.status, 0) << csv.errors;
   EXPECT_TRUE(csv.output.starts_with("time_s,page,bytes\n0.")) << csv.output.substr(0, 60);
   const auto lines = std::count(csv.output.begin(), csv.output.end(), '\n');
-  EXPECT_EQ(lines - 1, tuned({"a.trace"})["references"].get<int>());
+  EXPECT_GT(lines, 1);
+  EXPECT_LE(lines - 1, tuned({"a.trace"})["references"].get<int>());
+  EXPECT_EQ(csv.output.find(",0,"), std::string::npos) << "the root is pinned";
   const Outcome binary = run({"tune", "a.trace", "--export", "oracleGeneral"});
   EXPECT_EQ(binary.output.size(), 24u * static_cast<std::size_t>(lines - 1));
 }

@@ -23,17 +23,18 @@ std::string exported(const LookupExport& lookups, LookupExport::Format format) {
 LookupExport sample_lookups() {
   LookupExport lookups;
   lookups.add(own(PageAccess::Query::kOpen, 1, Event::kFetched));
-  lookups.add(lookup(0, 0, Event::kHit, 1'000));
+  lookups.add(lookup(0, 0, Event::kHit, 500));  // the root
+  lookups.add(lookup(0, 3, Event::kHit, 1'000));
   lookups.add(lookup(0, 7, Event::kFetched, 2'500'000'000));
   lookups.add(lookup(0, 7, Event::kInstalled, 2'500'000'000));
   lookups.add(lookup(1, 9, Event::kMissed, 2'500'000'000));  // not needed
-  lookups.add(lookup(1, 0, Event::kHit, 3'000'000'000));
+  lookups.add(lookup(1, 3, Event::kHit, 3'000'000'000));
   return lookups;
 }
 
 TEST(LookupExport, WritesLines) {
   EXPECT_EQ(exported(sample_lookups(), LookupExport::Format::kCsv),
-            "time_s,page,bytes\n0.000001,0,65536\n2.500000,7,65536\n3.000000,0,65536\n");
+            "time_s,page,bytes\n0.000001,3,65536\n2.500000,7,65536\n3.000000,3,65536\n");
   EXPECT_EQ(exported(LookupExport(), LookupExport::Format::kCsv), "time_s,page,bytes\n");
 }
 
@@ -47,7 +48,7 @@ TEST(LookupExport, WritesRecordsThatNameTheNextLookup) {
   };
   ASSERT_EQ(bytes.size(), 3u * 24);
   EXPECT_EQ(number(0, 4), 0u);
-  EXPECT_EQ(number(4, 8), 0u);
+  EXPECT_EQ(number(4, 8), 3u);
   EXPECT_EQ(number(12, 4), 65536u);
   EXPECT_EQ(number(16, 8), 2u);
   EXPECT_EQ(number(24, 4), 2u);
@@ -58,7 +59,7 @@ TEST(LookupExport, WritesRecordsThatNameTheNextLookup) {
 
 TEST(LookupExport, WritesManyLookupsInPieces) {
   LookupExport lookups;
-  for (std::uint32_t i = 0; i < 100'000; ++i) lookups.add(lookup(i, i % 50, Event::kHit, i));
+  for (std::uint32_t i = 0; i < 100'000; ++i) lookups.add(lookup(i, 1 + i % 50, Event::kHit, i));
   int pieces = 0;
   std::size_t size = 0;
   EXPECT_TRUE(lookups.write(LookupExport::Format::kOracleGeneral, 65536,
