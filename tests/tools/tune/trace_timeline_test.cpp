@@ -63,7 +63,7 @@ TEST(TraceTimeline, OrdersPagesBySectionAndOctcode) {
   const auto each = timeline.shares(&TraceTimeline::Window::looked_up, 100);
   ASSERT_EQ(each.size(), 16u);
   // Rows from the least octcode: pages 12, 11, 10, and then 13.
-  for (const std::size_t at : {0 * 4 + 2, 1 * 4 + 1, 2 * 4 + 0, 3 * 4 + 3}) EXPECT_EQ(each[at], 1);
+  for (const unsigned at : {0U * 4 + 2, 1U * 4 + 1, 2U * 4 + 0, 3U * 4 + 3}) EXPECT_EQ(each[at], 1);
   EXPECT_EQ(std::accumulate(each.begin(), each.end(), 0.0F), 4);
   const auto pairs = timeline.shares(&TraceTimeline::Window::looked_up, 2);
   ASSERT_EQ(pairs.size(), 8u);
