@@ -111,9 +111,11 @@ TEST_P(EveryPolicy, FindsAVictimWheneverThereIsOne) {
       case 2:
         if (is_resident) evictor.reference_bits().mark(frame);
         break;
-      case 3:
-        ASSERT_EQ(frames.evict() != kNoPage, any_is(State::kEvictable)) << step;
+      case 3: {
+        const bool has_victim = any_is(State::kEvictable);
+        ASSERT_EQ(frames.evict() != kNoPage, has_victim) << step;
         break;
+      }
       default:
         if (any_is(State::kIdle)) {
           std::uint32_t page = numbers.below(20);
