@@ -50,20 +50,26 @@ TEST_P(EveryPolicy, FindsAVictimWhereAllPagesWereUsedOften) {
   }
 }
 
+// Readers may mark a frame again as soon as the policy has cleared its mark.
 TEST_P(EveryPolicy, EndsWhileReadersUseAllPages) {
-  PolicyFrames frames = full(8);
-  std::atomic<bool> stop{false};
-  std::atomic<int> rounds{0};
-  std::thread reader([&, bits = frames.evictor().reference_bits()] {
-    while (!stop.load()) {
-      for (std::uint32_t frame = 0; frame < 8; ++frame) bits.mark(frame);
-      rounds.fetch_add(1);
-    }
-  });
-  while (rounds.load() < 10) std::this_thread::yield();
-  for (std::uint32_t page = 100; page < 400; ++page) ASSERT_NE(frames.read(page), kNoPage);
-  stop.store(true);
-  reader.join();
+  for (const std::uint32_t frame_count : {1u, 8u}) {
+    PolicyFrames frames = full(frame_count);
+    std::atomic<bool> stop{false};
+    std::atomic<int> rounds{0};
+    std::thread reader([&, bits = frames.evictor().reference_bits()] {
+      while (!stop.load(std::memory_order_relaxed)) {
+        for (std::uint32_t frame = 0; frame < frame_count; ++frame) bits.mark(frame);
+        rounds.fetch_add(1, std::memory_order_relaxed);
+      }
+    });
+    while (rounds.load() < 10) std::this_thread::yield();
+    bool found = true;
+    for (int i = 0; i < 20'000 && found; ++i)
+      found = frames.read(100 + static_cast<std::uint32_t>(i) % 500) != kNoPage;
+    stop.store(true);
+    reader.join();
+    EXPECT_TRUE(found) << frame_count;
+  }
 }
 
 TEST_P(EveryPolicy, NeverEvictsPinnedAndHeldPages) {
