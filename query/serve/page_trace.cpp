@@ -57,7 +57,7 @@ void PageTrace::degraded(double width) noexcept {
 
 void PageTrace::fetched(std::uint32_t page) noexcept {
   clock_->advance();
-  if (clock_->now() != time_) begin_time(clock_->now(), queries_ - 1);
+  if (clock_->now() != time_) begin_time(clock_->now(), last_number());
   note(TraceEvent::kFetched, TraceWord::kFlag | page);
   ring_.publish();
 }
@@ -77,7 +77,7 @@ void PageTrace::motion(const Vec3& position, const Vec3& velocity) noexcept {
 }
 
 void PageTrace::note_in_cache(TraceEvent event, std::uint64_t rest) noexcept {
-  begin_time(clock_->tick(), queries_ > 0 ? queries_ - 1 : 0);
+  begin_time(clock_->tick(), last_number());
   note(event, rest);
   ring_.publish();
 }
@@ -90,7 +90,7 @@ void PageTrace::evicted(std::uint32_t page) noexcept { note_in_cache(TraceEvent:
 
 PageAccess::Query PageTrace::set_kind(PageAccess::Query kind) noexcept {
   const PageAccess::Query last = TraceWord{prefix_}.query();
-  prefix_ = TraceWord::prefix(kind, true, false, queries_ > 0 ? queries_ - 1 : 0);
+  prefix_ = TraceWord::prefix(kind, true, false, last_number());
   return last;
 }
 

@@ -77,6 +77,8 @@ class PageTrace {
   void note(TraceEvent event, std::uint64_t rest) noexcept {
     if (ring_.has_room(1) || find_room()) ring_.stage(TraceWord::of(event, prefix_ | rest));
   }
+  // Number of the last query; 0 before the first one, as Model::open has no number.
+  std::uint64_t last_number() const noexcept { return queries_ > 0 ? queries_ - 1 : 0; }
   bool find_room() noexcept;
   void begin_time(std::uint64_t time, std::uint64_t number) noexcept;
   void note_in_cache(TraceEvent event, std::uint64_t rest) noexcept;
