@@ -40,6 +40,8 @@ PageSizeReplay::PageSizeReplay(std::uint64_t recorded_bytes, std::uint64_t wante
                                Vec3 core_lower, Vec3 core_upper)
     : page_bytes_(wanted_bytes),
       more_bits_(more_bits(recorded_bytes, wanted_bytes)),
+      pages_together_(
+          static_cast<std::uint32_t>(std::max<std::uint64_t>(wanted_bytes / recorded_bytes, 1))),
       core_lower_(core_lower),
       cells_per_unit_(cells_per_unit(core_lower, core_upper)) {}
 
@@ -69,7 +71,7 @@ PageSizeReplay::Key PageSizeReplay::key_of(const PageAccess& access) const {
   if (more_bits_ == 0) return {section, bits, morton, access.page};
   const unsigned other = static_cast<unsigned>(
       std::clamp(static_cast<int>(bits) + more_bits_, 0, static_cast<int>(kMortonBits)));
-  if (more_bits_ < 0) return {section, bits, first_bits(morton, other), 0};
+  if (more_bits_ < 0) return {section, 0, access.page / pages_together_, 0};
   const auto known = positions_.find(access.probe);
   const std::uint64_t at =
       known == positions_.end() ? morton : morton_at(known->second, morton, bits);
@@ -85,8 +87,8 @@ void PageSizeReplay::add(const PageAccess& access) {
   if (!is_opening && !is_counted_lookup(access)) return;
   if (!is_opening && !is_open_) references_.end_opening();
   is_open_ = is_open_ || !is_opening;
-  if (access.page == References::kRootPage) {
-    references_.add(access.page);
+  if (access.page / pages_together_ == References::kRootPage) {
+    references_.add(References::kRootPage);
     return;
   }
   const auto number =

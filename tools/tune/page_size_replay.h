@@ -15,11 +15,12 @@ namespace planetree::tools {
 
 /// Estimates the page lookups of a trace for another page size, without a file of that size.
 ///
-/// Pages are ranges in Morton order. A page four times as large has the range of a cell one level
-/// up, because a surface passes through about four of its octants. So pages of one section and
-/// depth whose octcodes begin alike are taken for one larger page. A lookup of a smaller page is
-/// taken for one of the part of the page that is nearest to the position of the probe, as its last
-/// motion told. So queries of probes that do not call Probe::motion always look up the same part.
+/// Pages are numbered in the order of their octcodes, so those that follow each other are
+/// neighbours. As many as a larger page holds are taken for one. A page of a quarter of the size
+/// has about one octant of the cell of a page, because a surface passes through about four of them.
+/// A lookup of a smaller page is taken for one of the part of the page that is nearest to the
+/// position of the probe, as its last motion told. So queries of probes that do not call
+/// Probe::motion always look up the same part.
 class PageSizeReplay {
  public:
   /// core_lower, core_upper  of the model, see ModelInfo
@@ -42,7 +43,8 @@ class PageSizeReplay {
   std::uint64_t morton_at(const Vec3& position, std::uint64_t page_morton, unsigned bits) const;
 
   std::uint64_t page_bytes_;
-  int more_bits_;  // of the Morton code of a page; negative for larger pages
+  int more_bits_;                 // of the Morton code of a page; negative for larger pages
+  std::uint32_t pages_together_;  // recorded pages of a larger one
   Vec3 core_lower_;
   double cells_per_unit_;                    // finest cells
   std::map<std::uint32_t, Vec3> positions_;  // by probe

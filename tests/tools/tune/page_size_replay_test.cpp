@@ -12,10 +12,10 @@ using Event = PageAccess::Event;
 
 constexpr Vec3 kLower{10, 10, 10}, kUpper{11.5, 11, 11};  // the octree's edge is 2
 
-/// A lookup of the page of a cell: page 1 + its place among those of level 2 in Morton order.
+/// A lookup of the page of a cell: page 4 + its place among those of level 2 in Morton order.
 PageAccess lookup_in(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
   const std::uint64_t code = octree::morton_code(x << 17, y << 17, z << 17);
-  PageAccess access = lookup(0, 1 + static_cast<std::uint32_t>(code >> 51), Event::kHit);
+  PageAccess access = lookup(0, 4 + static_cast<std::uint32_t>(code >> 51), Event::kHit);
   access.octcode = octree::octcode_of_prefix(code, 6);
   return access;
 }
@@ -35,6 +35,9 @@ TEST(PageSizeReplay, TakesNeighboursForOneLargerPage) {
   EXPECT_EQ(pages_of(same), 8u);
   EXPECT_EQ(pages_of(larger), 2u);
   EXPECT_EQ(larger.references().lookups(), 8u);
+  larger.add(lookup(0, 3, Event::kHit));
+  EXPECT_EQ(pages_of(larger), 2u) << "the first pages are in one with the root";
+  EXPECT_EQ(larger.references().lookups(), 9u);
 }
 
 TEST(PageSizeReplay, TakesThePartNearTheProbeForASmallerPage) {
