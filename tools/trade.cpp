@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -11,9 +10,9 @@
 #include "planetree/probe.h"
 #include "tools/cli/layer_option.h"
 #include "tools/cli/open_model.h"
-#include "tools/cli/output_file.h"
 #include "tools/cli/parts_option.h"
 #include "tools/cli/progress.h"
+#include "tools/cli/report_page.h"
 #include "tools/cli/subcommand_options.h"
 #include "tools/points/point_reader.h"
 #include "tools/trade/median_edge.h"
@@ -26,36 +25,18 @@ namespace {
 
 constexpr std::uint64_t kMaxPoints = 1000000;
 
-/// The page must neither be an input, nor be shown by a terminal.
-Result<void> check_page(const TradeArguments& arguments, const Console& console) {
-  namespace fs = std::filesystem;
-  const auto refuse = [](const char* text) {
-    return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere, "%s", text);
-  };
-  if (arguments.html == "-") {
-    if (!console.output_is_terminal()) return {};
-    return refuse("a terminal cannot show a page; redirect standard output or name a file");
-  }
-  std::error_code none;
-  for (const fs::path& input : {arguments.file, arguments.points})
-    if (!input.empty() && input != "-" && fs::equivalent(input, arguments.html, none))
-      return refuse("this is an input itself; name another output");
-  return {};
-}
-
 class Trade {
  public:
   Trade(const TradeArguments& arguments, Console& console)
       : arguments_(arguments),
         console_(console),
         progress_(arguments.quiet || arguments.json, false),
-        measurement_(arguments.file, record_, [this] { progress_.add(1); }) {}
+        measurement_(arguments.file, record_, [this] { progress_.add(1); }),
+        page_(arguments.page, console) {}
 
   int run() {
-    // Before the measurements, which would be lost if the page could not be written.
-    if (!arguments_.html.empty()) {
-      if (const int status = open_page(); status != kDone) return status;
-    }
+    const std::filesystem::path inputs[] = {arguments_.file, arguments_.points};
+    if (const int status = page_.open(inputs); status != kDone) return status;
     auto model = open_model(
         arguments_.file, trade_open_options(arguments_.memory_bytes, arguments_.layers), console_);
     if (!model) return fail(model.error());
@@ -67,31 +48,9 @@ class Trade {
   }
 
  private:
-  bool page_is_standard_output() const { return arguments_.html == "-"; }
-  std::string page_name() const {
-    return page_is_standard_output() ? "standard output" : arguments_.html.string();
-  }
-
-  int open_page() {
-    if (const auto checked = check_page(arguments_, console_); !checked)
-      return console_.fail(page_name(), checked.error());
-    auto created = OutputFile::create(arguments_.html, arguments_.force);
-    if (!created) return console_.fail(page_name(), created.error());
-    page_.emplace(std::move(*created));
-    return kDone;
-  }
-
   int report() {
     const std::string text = arguments_.json ? trade_json(record_) : trade_words(record_);
-    if (page_is_standard_output())
-      console_.note(text);
-    else
-      console_.print(text);
-    if (!page_) return kDone;
-    const std::string html = trade_page(record_, trade_command(arguments_));
-    auto written = page_->write(std::as_bytes(std::span(html)));
-    if (written) written = page_->commit();
-    return written ? kDone : console_.fail(page_name(), written.error());
+    return page_.report(text, [this] { return trade_page(record_, trade_command(arguments_)); });
   }
 
   int measure_all(const Model& model) {
@@ -164,7 +123,7 @@ class Trade {
   Progress progress_;
   TradeRecord record_;
   TradeMeasurement measurement_;
-  std::optional<OutputFile> page_;
+  ReportPage page_;
 };
 
 }  // namespace
@@ -192,12 +151,7 @@ void add_trade(CLI::App& app, Console& console, std::function<int()>& action) {
       subcommand, [options](std::uint32_t parts) { options->parts = parts; },
       "Answers without the normal need no triangle, so that an allowed error saves more");
   add_open_layers(subcommand, options->layers);
-  const auto html = subcommand.path(
-      "--html", "OUT.html", options->html,
-      "Also write the report as one HTML file with plots, which needs no network; - is standard "
-      "output, and the report then goes to standard error");
-  subcommand.need(subcommand.flag("--force", options->force, "Replace the page if it exists"),
-                  html);
+  add_page(subcommand, options->page);
   subcommand.flag("--json", options->json, "Report as one JSON object");
   subcommand.flag("--quiet", options->quiet, "Show no progress");
   subcommand.on_given([options, &console, &action]() -> std::string {

@@ -2,13 +2,11 @@
 
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 
 #include "tools/cli/duration_text.h"
-#include "tools/cli/output_file.h"
 #include "tools/cli/progress.h"
 #include "tools/cli/subcommand_options.h"
 #include "tools/tune/tune_page.h"
@@ -18,26 +16,22 @@
 namespace planetree::tools {
 namespace {
 
-Error refusal(const char* text) {
-  return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere, "%s", text);
-}
-
 class Tune {
  public:
   Tune(const TuneArguments& arguments, Console& console)
       : arguments_(arguments),
         console_(console),
         progress_(arguments.quiet || arguments.json, false),
-        run_(arguments, progress_) {}
+        run_(arguments, progress_),
+        page_(arguments.page, console) {}
 
   int run() {
-    // Before the measurements, which would be lost if the page could not be written.
-    if (!arguments_.html.empty())
-      if (const int status = open_page(); status != kDone) return status;
+    if (const int status = page_.open(arguments_.traces); status != kDone) return status;
     if (arguments_.export_format == LookupExport::Format::kOracleGeneral &&
         console_.output_is_terminal())
       return console_.fail("standard output",
-                           refusal("a terminal cannot show the export; redirect it to a file"));
+                           make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
+                                      "a terminal cannot show the export; redirect it to a file"));
     if (const auto failed = run_.read()) return fail(*failed);
     if (arguments_.export_format) return export_lookups();
     if (const auto failed = run_.measure()) return fail(*failed);
@@ -49,25 +43,6 @@ class Tune {
   int fail(const TuneRun::Failure& failure) {
     progress_.finish();
     return console_.fail(failure.file, failure.error);
-  }
-
-  std::string page_name() const {
-    return arguments_.html == "-" ? "standard output" : arguments_.html.string();
-  }
-
-  int open_page() {
-    if (arguments_.html == "-" && console_.output_is_terminal())
-      return console_.fail(
-          page_name(),
-          refusal("a terminal cannot show a page; redirect standard output or name a file"));
-    std::error_code none;
-    for (const auto& trace : arguments_.traces)
-      if (std::filesystem::equivalent(trace, arguments_.html, none))
-        return console_.fail(page_name(), refusal("this is a trace itself; name another output"));
-    auto created = OutputFile::create(arguments_.html, arguments_.force);
-    if (!created) return console_.fail(page_name(), created.error());
-    page_.emplace(std::move(*created));
-    return kDone;
   }
 
   int export_lookups() {
@@ -83,22 +58,14 @@ class Tune {
   int report() {
     const TuneRecord& record = run_.record();
     const std::string text = arguments_.json ? tune_json(record) : tune_words(record);
-    if (arguments_.html == "-")
-      console_.note(text);
-    else
-      console_.print(text);
-    if (!page_) return kDone;
-    const std::string html = tune_page(record, tune_command(arguments_));
-    auto written = page_->write(std::as_bytes(std::span(html)));
-    if (written) written = page_->commit();
-    return written ? kDone : console_.fail(page_name(), written.error());
+    return page_.report(text, [&] { return tune_page(record, tune_command(arguments_)); });
   }
 
   const TuneArguments& arguments_;
   Console& console_;
   Progress progress_;
   TuneRun run_;
-  std::optional<OutputFile> page_;
+  ReportPage page_;
 };
 
 /// Declares an option whose text a function reads.
@@ -160,12 +127,7 @@ void add_tune(CLI::App& app, Console& console, std::function<int()>& action) {
             word == "csv" ? LookupExport::Format::kCsv : LookupExport::Format::kOracleGeneral;
       },
       "Write the page lookups to standard output, for simulators of caches, instead of a report");
-  const auto html = subcommand.path(
-      "--html", "OUT.html", options->html,
-      "Also write the report as one HTML file with plots, which needs no network; - is standard "
-      "output, and the report then goes to standard error");
-  subcommand.need(subcommand.flag("--force", options->force, "Replace the page if it exists"),
-                  html);
+  const auto html = add_page(subcommand, options->page);
   SubcommandOptions::exclude(html, exported);
   subcommand.flag("--json", options->json, "Report as one JSON object");
   subcommand.flag("--quiet", options->quiet, "Show no progress");

@@ -17,7 +17,7 @@ std::string trade_command(const TradeArguments& arguments) {
     text += fmt::format(" --memory {}", arguments.memory_bytes);
   if (arguments.layers != defaults.layers) text += " --layers " + layers_text(arguments.layers);
   if (arguments.parts != defaults.parts) text += " --parts " + parts_text(arguments.parts);
-  return text + " --html " + shell_word(arguments.html.string()) + " --force";
+  return text + " --html " + shell_word(arguments.page.html.string()) + " --force";
 }
 
 }  // namespace planetree::tools

@@ -6,6 +6,7 @@
 
 #include "planetree/layers.h"
 #include "planetree/types.h"
+#include "tools/cli/report_page.h"
 
 namespace planetree::tools {
 
@@ -17,8 +18,7 @@ struct TradeArguments {
   std::uint64_t memory_bytes = std::uint64_t{256} << 20;
   std::uint32_t layers = kAllLayers;  ///< layers to open
   std::uint32_t parts = kAllParts;    ///< parts to ask for
-  std::filesystem::path html;         ///< page to write; empty: none; "-" is standard output
-  bool force = false;                 ///< whether an existing page may be replaced
+  PageChoice page;                    ///< page to write
   bool json = false;
   bool quiet = false;
 };

@@ -25,7 +25,7 @@ std::string tune_command(const TuneArguments& arguments) {
   if (arguments.latency_ns) text += fmt::format(" --latency {}ns", *arguments.latency_ns);
   for (std::size_t i = 0; i < arguments.page_sizes.size(); ++i)
     text += fmt::format("{}{}", i == 0 ? " --pages " : ",", arguments.page_sizes[i]);
-  return text + " --html " + shell_word(arguments.html.string()) + " --force";
+  return text + " --html " + shell_word(arguments.page.html.string()) + " --force";
 }
 
 Result<std::vector<std::uint64_t>> parse_page_sizes(std::string_view text) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/cli/report_page.h"
 #include "tools/tune/lookup_export.h"
 #include "tools/tune/tune_goal.h"
 
@@ -20,8 +21,7 @@ struct TuneArguments {
   std::optional<std::uint64_t> latency_ns;            ///< of a page; nothing: as the trace says
   std::vector<std::uint64_t> page_sizes;              ///< to compare, bytes
   std::optional<LookupExport::Format> export_format;  ///< export lookups instead of a report
-  std::filesystem::path html;  ///< page to write; empty: none; "-" is standard output
-  bool force = false;          ///< whether an existing page may be replaced
+  PageChoice page;                                    ///< page to write
   bool json = false;
   bool quiet = false;
 };

@@ -75,7 +75,7 @@ TEST(IsDominated, TakesRoundingForNoError) {
 TEST(TradeCommand, LeavesOutWhatIsDefault) {
   TradeArguments arguments;
   arguments.file = "my scan.ptree";
-  arguments.html = "out.html";
+  arguments.page.html = "out.html";
   EXPECT_EQ(trade_command(arguments), "planetree trade 'my scan.ptree' --html out.html --force");
   arguments.points = "points.csv";
   arguments.count = 50;

@@ -16,7 +16,7 @@ TEST(TuneArguments, ReadPageSizes) {
 TEST(TuneArguments, AreTheCommandThatMakesThePageAgain) {
   TuneArguments arguments;
   arguments.traces = {"a b.trace", "c.trace"};
-  arguments.html = "out.html";
+  arguments.page.html = "out.html";
   EXPECT_EQ(tune_command(arguments), "planetree tune 'a b.trace' c.trace --html out.html --force");
   arguments.goal_text = "degraded<0.1%";
   arguments.goal = *TuneGoal::parse(arguments.goal_text);
