@@ -34,10 +34,7 @@ ClosestPoint ProbeState::find_closest_point(const Vec3& query,
   if (!valid) return answer;
   const QueryOptions limited = with_defaults(options);
   PageAccessor accessor(reader_, options.wait, model_.query_terms);
-  if (trace_) {
-    trace_->begin_query(kKind, options.wait);
-    accessor.set_trace(trace_);
-  }
+  begin_trace(kKind, options.wait, accessor);
   octree::TraversalStats work;
   const bool incomplete = query::closest_point(
       {model_.geometry, accessor.pages(), coherence_, work}, query, limited, answer);
@@ -121,11 +118,8 @@ std::uint32_t ProbeState::fetch_pages(const Vec3& query, const QueryOptions& opt
     return 0;
   coherence_.is_on = coherence_.follows_motion = reason == FetchReason::kMotion;
   PageAccessor accessor(reader_, options.wait, model_.fetcher_terms, &stop);
-  if (trace_) {
-    trace_->begin_query(is_prefetch ? PageAccess::Query::kPrefetch : PageAccess::Query::kFetch,
-                        options.wait);
-    accessor.set_trace(trace_);
-  }
+  begin_trace(is_prefetch ? PageAccess::Query::kPrefetch : PageAccess::Query::kFetch, options.wait,
+              accessor);
   ClosestPoint unused = unanswered(Status::kExact);
   octree::TraversalStats work;
   query::closest_point({model_.geometry, accessor.pages(), coherence_, work}, query, options,
@@ -141,10 +135,7 @@ Found ProbeState::find_triangles(const TriangleSetQuery& query, std::span<Closes
   TriangleSet set;
   {
     PageAccessor accessor(reader_, options.wait, model_.query_terms);
-    if (trace_) {
-      trace_->begin_query(PageAccess::Query::kClosestPoint, options.wait);
-      accessor.set_trace(trace_);
-    }
+    begin_trace(PageAccess::Query::kClosestPoint, options.wait, accessor);
     set = query::find_triangles({model_.geometry, accessor.pages(), coherence_, work}, query,
                                 limited, found);
     if (set.is_degraded) {
@@ -170,10 +161,7 @@ void ProbeState::fetch_triangles(const TriangleSetQuery& query, std::uint64_t co
                                  const std::atomic<bool>& stop) noexcept {
   if (!is_valid(query.centre, options) || !(query.radius >= 0)) return;
   PageAccessor accessor(reader_, options.wait, model_.fetcher_terms, &stop);
-  if (trace_) {
-    trace_->begin_query(PageAccess::Query::kFetch, options.wait);
-    accessor.set_trace(trace_);
-  }
+  begin_trace(PageAccess::Query::kFetch, options.wait, accessor);
   octree::TraversalStats work;
   visit_triangles({model_.geometry, accessor.pages(), coherence_, work}, query, count, options);
 }

@@ -84,6 +84,10 @@ class ProbeState {
   }
 
  private:
+  // With fewer frames, pages prefetched displace pages that the next queries need, unless no page
+  // is ever displaced.
+  static constexpr std::uint32_t kMinFramesToPrefetch = 8;
+
   ProbeState(const ServingModel& model, cache::Reader reader,
              std::unique_ptr<BatchBuffers> batch_buffers) noexcept
       : reader_(std::move(reader)),
@@ -98,10 +102,12 @@ class ProbeState {
                           const octree::SideGrid::Lookup& lookup) noexcept;
   Containment find_front(const Vec3& query, QueryOptions options) noexcept;
   Containment leave_unknown(const QueryOptions& options) noexcept;
-  // With fewer frames, pages prefetched displace pages that the next queries need, unless no page
-  // is ever displaced.
-  static constexpr std::uint32_t kMinFramesToPrefetch = 8;
-
+  // Records the lookups of a query of this kind, if the model keeps a trace.
+  void begin_trace(PageAccess::Query kind, Wait wait, PageAccessor& accessor) noexcept {
+    if (!trace_) return;
+    trace_->begin_query(kind, wait);
+    accessor.set_trace(trace_);
+  }
   void note_degraded(double width, bool missed) noexcept;
   void request(const Vec3& query, const QueryOptions& options, std::uint32_t parts,
                std::uint64_t triangles = 0, double radius = 0) noexcept;

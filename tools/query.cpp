@@ -110,7 +110,7 @@ class QueryRun {
 
   int answer(PointReader& points, AnswerOutput& output) {
     if (arguments_.contains) {
-      std::vector<Containment> answers(kChunkPoints);
+      std::vector<Containment> answers(chunk_points());
       return answer_all<Containment>(points, output, [&](std::span<const Vec3> queries) {
         const auto own = std::span(answers).first(queries.size());
         probe_.contains(queries, own, options_);
@@ -124,7 +124,7 @@ class QueryRun {
         return Rows<ClosestPoint>{sets.points(), sets.rows()};
       });
     }
-    std::vector<ClosestPoint> answers(kChunkPoints);
+    std::vector<ClosestPoint> answers(chunk_points());
     return answer_all<ClosestPoint>(points, output, [&](std::span<const Vec3> queries) {
       const auto own = std::span(answers).first(queries.size());
       probe_.closest_points(queries, own, options_);
