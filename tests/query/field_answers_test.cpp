@@ -194,7 +194,7 @@ TEST_F(FieldAnswers, AreNearerThanTheLastTriangleAfterAJump) {
   Probe probe = make_probe(model);
   int without_triangle = 0;
   for (const Vec3& query : random_queries(300, 1.05, 1.4)) {
-    probe.closest_point({-1.01, 0, 0});
+    probe.closest_point({-1.01, 0, 0}, {.max_work = 4096});
     const ClosestPoint answer = probe.closest_point(query, {.max_work = 8});
     EXPECT_LE(answer.distance, answer.upper);
     if (answer.status != Status::kDegraded || answer.triangle != kNoTriangle) continue;
