@@ -267,15 +267,15 @@ class ClosestPointQuery {
     if (!faces.complete || !oriented.winding_is_known || limit.exceeded()) mark_degraded();
   }
 
-  // Sets the normal of an answer without a triangle: the direction from its point to the query, or,
-  // by NormalRule::kOutward, out of the solid.
+  // Without a triangle the normal points from its point to the query or, by kOutward, outward.
   void find_direction(const octree::NearestAnswer& nearest) {
     octree::Point direction = point_ - nearest.point;
     if (answer_.side == Side::kInside && options_.normal_rule == NormalRule::kOutward)
       direction = -direction;
-    const double length = direction.norm();
-    if (!(length > 0)) return;
-    direction /= length;
+    // A forged field may hold points whose squared distances leave the range of doubles.
+    const double largest = direction.cwiseAbs().maxCoeff();
+    if (!(largest > 0 && largest < kInfinity)) return;
+    direction = (direction / largest).normalized();
     answer_.normal = {direction.x(), direction.y(), direction.z()};
   }
 
