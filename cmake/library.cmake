@@ -6,6 +6,7 @@
 # tests/layering fails when a header of include/planetree is not named here.
 set(planetree_headers
   build.h
+  contact.h
   eigen.h
   error.h
   eviction_policy.h

@@ -28,6 +28,11 @@ std::uint64_t curve_key(const ModelGeometry& model, const Vec3& query) {
   return octree::morton_code(coordinate(from.x()), coordinate(from.y()), coordinate(from.z()));
 }
 
+// Returns the point by which a query takes its place on the curve.
+const Vec3& place_of(const Vec3& query) { return query; }
+const Vec3& place_of(const Ray& ray) { return ray.origin; }
+const Vec3& place_of(const Sweep& sweep) { return sweep.from; }
+
 // Prefetches all cache lines of an object. Always inlined, because gcc 12 drops calls of a function
 // that only prefetches.
 template <class T>
@@ -39,10 +44,10 @@ template <class T>
 }
 
 // The queries of a batch that are sorted together, and their answers.
-template <class Answer>
+template <class Query, class Answer>
 struct Window {
   const BatchOrder& order;
-  std::span<const Vec3> queries;
+  std::span<const Query> queries;
   std::span<Answer> answers;
   const QueryOptions& options;
   const ServingModel& model;
@@ -71,11 +76,15 @@ struct Window {
   }
 
  private:
-  Answer answer(ProbeState& probe, const Vec3& query) const noexcept {
+  Answer answer(ProbeState& probe, const Query& query) const noexcept {
     if constexpr (std::is_same_v<Answer, ClosestPoint>)
       return probe.closest_point(query, options);
-    else
+    else if constexpr (std::is_same_v<Answer, Containment>)
       return probe.contains(query, options);
+    else if constexpr (std::is_same_v<Answer, RayHit>)
+      return probe.first_hit(query, options);
+    else
+      return probe.first_contact(query, options);
   }
 };
 
@@ -115,8 +124,8 @@ std::span<std::uint64_t> keys_for(BatchBuffers& storage, std::span<Answer> answe
 }
 
 // Runs all queries, in an order that switches pages seldom.
-template <class Answer>
-void query_in_order(ProbeState& probe, std::span<const Vec3> queries, std::span<Answer> answers,
+template <class Query, class Answer>
+void query_in_order(ProbeState& probe, std::span<const Query> queries, std::span<Answer> answers,
                     const QueryOptions& options) noexcept {
   assert(queries.size() == answers.size());
   // BatchThreads take locks and wait for each other. Real-time queries must not.
@@ -125,11 +134,12 @@ void query_in_order(ProbeState& probe, std::span<const Vec3> queries, std::span<
   while (!queries.empty()) {
     const std::size_t count = window_size<Answer>(queries.size());
     BatchOrder order(keys_for(*probe.batch_buffers(), answers, count));
-    order.sort(probe.batch_buffers()->sorter,
-               [&](std::size_t i) { return curve_key(probe.model().geometry, queries[i]); });
-    const Window<Answer> window{order, queries.first(count), answers.first(count), options,
-                                probe.model()};
-    if (!batch_threads || !batch_threads->run(&window, count, &Window<Answer>::run_piece))
+    order.sort(probe.batch_buffers()->sorter, [&](std::size_t i) {
+      return curve_key(probe.model().geometry, place_of(queries[i]));
+    });
+    const Window<Query, Answer> window{order, queries.first(count), answers.first(count), options,
+                                       probe.model()};
+    if (!batch_threads || !batch_threads->run(&window, count, &Window<Query, Answer>::run_piece))
       window.run(probe, 0, count);
     queries = queries.subspan(count);
     answers = answers.subspan(count);
@@ -146,6 +156,16 @@ void closest_points(ProbeState& probe, std::span<const Vec3> queries,
 void contains(ProbeState& probe, std::span<const Vec3> queries, std::span<Containment> answers,
               const QueryOptions& options) noexcept {
   query_in_order(probe, queries, answers, options);
+}
+
+void first_hits(ProbeState& probe, std::span<const Ray> rays, std::span<RayHit> hits,
+                const QueryOptions& options) noexcept {
+  query_in_order(probe, rays, hits, options);
+}
+
+void first_contacts(ProbeState& probe, std::span<const Sweep> sweeps,
+                    std::span<FirstContact> contacts, const QueryOptions& options) noexcept {
+  query_in_order(probe, sweeps, contacts, options);
 }
 
 }  // namespace planetree::query

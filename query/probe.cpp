@@ -20,10 +20,17 @@ namespace planetree::query {
 // Leaves a fetch request: a fetch thread runs the query again and waits for the pages.
 void ProbeState::request(const Vec3& query, const QueryOptions& options, std::uint32_t parts,
                          std::uint64_t triangles, double radius) noexcept {
-  model_.requests(reader_.index())
-      .missed.store({query, options.max_error, options.max_distance, options.max_work, parts,
-                     static_cast<std::uint64_t>(options.side_rule),
-                     static_cast<std::uint64_t>(options.normal_rule), triangles, radius});
+  FetchRequest request;
+  request.point = query;
+  request.max_error = options.max_error;
+  request.max_distance = options.max_distance;
+  request.max_work = options.max_work;
+  request.parts = parts;
+  request.side_rule = static_cast<std::uint64_t>(options.side_rule);
+  request.normal_rule = static_cast<std::uint64_t>(options.normal_rule);
+  request.triangles = triangles;
+  request.radius = radius;
+  model_.requests(reader_.index()).missed.store(request);
 }
 
 template <PageAccess::Query kKind>

@@ -11,7 +11,9 @@
 #include <utility>
 
 #include "cache/reader.h"
+#include "planetree/contact.h"
 #include "planetree/types.h"
+#include "query/answer/model_line.h"
 #include "query/answer/query_context.h"
 #include "query/answer/triangle_set.h"
 #include "query/serve/batch_order.h"
@@ -57,6 +59,12 @@ class ProbeState {
   /// See Probe::nearest_triangles and Probe::triangles_within.
   Found find_triangles(const TriangleSetQuery& query, std::span<ClosestPoint> found,
                        const QueryOptions& options) noexcept;
+  /// See Probe::first_hit.
+  RayHit first_hit(const Ray& ray, const QueryOptions& options) noexcept;
+  /// See Probe::all_hits.
+  Found all_hits(const Ray& ray, std::span<RayHit> hits, const QueryOptions& options) noexcept;
+  /// See Probe::first_contact.
+  FirstContact first_contact(const Sweep& sweep, const QueryOptions& options) noexcept;
   /// See Probe::motion.
   void note_motion(const Vec3& position, const Vec3& velocity) noexcept {
     model_.requests(reader_.index())
@@ -74,6 +82,9 @@ class ProbeState {
   /// See FetchProbe::fetch_triangles.
   void fetch_triangles(const TriangleSetQuery& query, std::uint64_t count,
                        const QueryOptions& options, const std::atomic<bool>& stop) noexcept;
+  /// See FetchProbe::fetch_way.
+  void fetch_way(const Sweep& way, std::uint64_t count, const QueryOptions& options,
+                 const std::atomic<bool>& stop) noexcept;
   /// See FetchProbe::read_awaited_page.
   bool read_awaited_page() noexcept {
     if (trace_) {
@@ -111,6 +122,8 @@ class ProbeState {
   void note_degraded(double width, bool missed) noexcept;
   void request(const Vec3& query, const QueryOptions& options, std::uint32_t parts,
                std::uint64_t triangles = 0, double radius = 0) noexcept;
+  void note_missing_way(const ModelLine& way, double end, double radius, std::uint64_t count,
+                        const QueryOptions& options, PageAccessor& accessor) noexcept;
 
   // First, so that it is destroyed last: once the reader slot is released, another thread may make
   // a probe in this memory.
@@ -155,6 +168,10 @@ class QueryingFetchProbe final : public FetchProbe {
                        const std::atomic<bool>& stop) noexcept override {
     probe_->fetch_triangles({query, radius}, count, options, stop);
   }
+  void fetch_way(const Sweep& way, std::uint64_t count, const QueryOptions& options,
+                 const std::atomic<bool>& stop) noexcept override {
+    probe_->fetch_way(way, count, options, stop);
+  }
   bool read_awaited_page() noexcept override { return probe_->read_awaited_page(); }
 
  private:
@@ -168,5 +185,13 @@ void closest_points(ProbeState& probe, std::span<const Vec3> queries,
 /// See Probe::contains.
 void contains(ProbeState& probe, std::span<const Vec3> queries, std::span<Containment> answers,
               const QueryOptions& options) noexcept;
+
+/// See Probe::first_hits.
+void first_hits(ProbeState& probe, std::span<const Ray> rays, std::span<RayHit> hits,
+                const QueryOptions& options) noexcept;
+
+/// See Probe::first_contacts.
+void first_contacts(ProbeState& probe, std::span<const Sweep> sweeps,
+                    std::span<FirstContact> contacts, const QueryOptions& options) noexcept;
 
 }  // namespace planetree::query

@@ -8,6 +8,7 @@
 /// axes    positions and directions are in the coordinate system of that mesh.
 
 #include "planetree/build.h"
+#include "planetree/contact.h"
 #include "planetree/error.h"
 #include "planetree/eviction_policy.h"
 #include "planetree/export.h"

@@ -3,6 +3,7 @@
 #include <memory>
 #include <span>
 
+#include "planetree/contact.h"
 #include "planetree/error.h"
 #include "planetree/export.h"
 #include "planetree/model.h"
@@ -103,6 +104,39 @@ class PLANETREE_API Probe {
   Found triangles_within(Vec3 query, double radius, std::span<ClosestPoint> found,
                          const QueryOptions& options = {}) noexcept;
 
+  /// Finds the first triangle that a ray passes through: the one of least `t`, as computed, and
+  /// where these are equal, of least index.
+  ///
+  /// ray      a value that is NaN, an infinite one but for t_max, a direction of length zero, or a
+  ///          range that is out of order gives kBadQuery.
+  /// options  `wait`, `max_distance`, measured along the ray from t_min, and `max_work` have an
+  ///          effect. A value out of range gives kBadQuery.
+  /// return   kExact: nothing that was not read can come before the hit, or, without a hit, be hit
+  ///          at all. kDegraded: pages or work lacked, or missing triangles of the file's region
+  ///          may be in the way (see ModelInfo::has_region): no triangle is hit before t_lower, and
+  ///          the hit is the first of those read. kBeyondMaxDistance: nothing within max_distance,
+  ///          and t_lower is its position.
+  RayHit first_hit(const Ray& ray, const QueryOptions& options = {}) noexcept;
+  /// Finds the triangles that a ray passes through, by `t` and, where these are equal, by index. If
+  /// there are more than fit into `hits`, these are the first, and the set is not complete.
+  ///
+  /// Each hit is about one triangle: its interval contains the true t. The status is kExact if no
+  /// triangle that lacks can come before it, else kDegraded. A bad ray or option finds nothing.
+  Found all_hits(const Ray& ray, std::span<RayHit> hits, const QueryOptions& options = {}) noexcept;
+
+  /// Finds the first contact of a moving ball with the surface. Of triangles touched at the same
+  /// time, as computed, it is the one of least index; at the start of the motion the nearest one. A
+  /// ball that begins in contact has t = 0. A ball of radius 0 touches what its centre passes
+  /// through, as the ray of a segment does, the ends included.
+  ///
+  /// sweep    a value that is NaN or infinite or a negative radius gives kBadQuery.
+  /// options  `wait`, `max_distance`, which ends the motion after that length, and `max_work` have
+  ///          an effect. A value out of range gives kBadQuery.
+  /// return   kExact: nothing that was not read can be touched before. kDegraded: else, and
+  ///          kBeyondMaxDistance, as for first_hit(). Before t_lower the ball is free in any case.
+  ///          A real-time query requests the pages that lacked.
+  FirstContact first_contact(const Sweep& sweep, const QueryOptions& options = {}) noexcept;
+
   /// Reports where the device is and how fast it moves. From this a fetch thread predicts four
   /// positions in the next 5 to 200 ms and reads the pages that queries there need. Each call
   /// replaces the motion before. Call it with every query, since a motion is used once.
@@ -132,6 +166,12 @@ class PLANETREE_API Probe {
   /// Answers a batch of contains(). The rules of closest_points() apply.
   void contains(std::span<const Vec3> queries, std::span<Containment> answers,
                 const QueryOptions& options = {}) noexcept;
+  /// Answers a batch of first_hit(). The rules of closest_points() apply.
+  void first_hits(std::span<const Ray> rays, std::span<RayHit> hits,
+                  const QueryOptions& options = {}) noexcept;
+  /// Answers a batch of first_contact(). The rules of closest_points() apply.
+  void first_contacts(std::span<const Sweep> sweeps, std::span<FirstContact> contacts,
+                      const QueryOptions& options = {}) noexcept;
 
  private:
   explicit Probe(std::unique_ptr<query::ProbeState> state) noexcept;

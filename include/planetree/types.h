@@ -218,10 +218,13 @@ struct ClosestPoint {
   double signed_distance() const noexcept { return side == Side::kInside ? -distance : distance; }
 };
 
-/// How many triangles a query found, see Probe::nearest_triangles.
+/// How many triangles or hits a query found, see Probe::nearest_triangles and Probe::all_hits.
 struct Found {
   std::size_t count = 0;  ///< answers written
-  bool complete = false;  ///< whether no other triangle belongs to the set
+  bool complete = false;  ///< whether no other one belongs to the set
+
+  /// A set counts as the number of its answers.
+  operator std::size_t() const noexcept { return count; }
 };
 
 /// The answer to a query for the side alone.

@@ -89,6 +89,35 @@ inline constexpr double kOverlapMargin = 0x1p-48;
 /// below 2^113 in the model frame.
 inline constexpr double kProductUnderflow = 0x1p-950;
 
+// Where lines pass through triangles: octree/geometry/line_crossing.h.
+
+/// Relative error of a quotient of two numbers that are right to 2^-53 each: the quotient rounds
+/// once more, below 4 u; doubled for directed rounding.
+inline constexpr double kRatioRounding = 8 * kDoubleRoundoff;
+/// Relative error of the bound on a position's error: fewer than 16 roundings.
+inline constexpr double kPositionInflation = 1 + 0x1p-48;
+/// Greatest error of a position that is taken from double, as a share of the way to the triangle.
+/// A choice and no proof: positions of greater error are computed with exact numbers.
+inline constexpr double kMaxPositionError = 0x1p-40;
+
+// Moving balls: octree/geometry/moving_ball.h.
+
+/// Error of a centre on its way, as a share of the greatest coordinate M of both ends. The way errs
+/// by 2 u M along each axis, its product by 2 u M and the sum by u M: sqrt(3) 5 u M; the sum is
+/// taken three times.
+inline constexpr double kPositionRounding = 32 * kDoubleRoundoff;
+/// Error of the height of a centre over a corner, as a share of the greatest coordinate of the
+/// vector from corner to centre. The difference, three products and two sums err by 5 u of 3 times
+/// that; doubled. The same holds for the speed along a normal.
+inline constexpr double kPlaneRounding = 32 * kDoubleRoundoff;
+/// Least closing speed that a search for a certain contact begins with, as a share of the speed. A
+/// choice and no proof.
+inline constexpr double kMinClosingShare = 0x1p-20;
+
+/// By how much a box grows before a line is clipped to it, as a share of the coordinates: far more
+/// than positions and their quotients err.
+inline constexpr double kClipMargin = 0x1p-40;
+
 // Bounds in float of boxes and discs: octree/traversal/bounds.h. There D is the distance to the
 // centre of a box, d the distance to the surface in it, and r the diagonal of the box.
 

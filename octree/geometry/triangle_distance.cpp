@@ -18,11 +18,10 @@ HWY_BEFORE_NAMESPACE();
 namespace planetree::octree {
 namespace HWY_NAMESPACE {
 
-void evaluate_on_target(const Point& query, const TriangleView& triangles,
+// Returns whether the limit sufficed for the first triangle.
+bool evaluate_on_target(const Point& query, const TriangleView& triangles, WorkLimit& limit,
                         TriangleResults& results) {
-  std::uint64_t units = 0;
-  WorkLimit limit(units, WorkLimit::kNone);
-  evaluate_selected(triangles, 1, query, limit, results);
+  return evaluate_selected(triangles, 1, query, limit, results) == 0;
 }
 
 }  // namespace HWY_NAMESPACE
@@ -132,13 +131,21 @@ void locate(const Triangle& triangle, const TriangleResult& result,
   nearest.barycentric[second] = std::max(b, kMinBarycentric);
 }
 
-NearestOnTriangle nearest_on_triangle(const Point& query, const Triangle& triangle) noexcept {
+bool nearest_on_triangle(const Point& query, const Triangle& triangle, WorkLimit& limit,
+                         NearestOnTriangle& nearest) noexcept {
   TriangleRows<kTrianglesAtOnce> rows;
   rows.fill(0, triangle);
   TriangleResults results;
-  HWY_DYNAMIC_DISPATCH(evaluate_on_target)(query, rows.view(0), results);
-  NearestOnTriangle nearest;
+  if (!HWY_DYNAMIC_DISPATCH(evaluate_on_target)(query, rows.view(0), limit, results)) return false;
   locate(triangle, results.of(0), nearest);
+  return true;
+}
+
+NearestOnTriangle nearest_on_triangle(const Point& query, const Triangle& triangle) noexcept {
+  std::uint64_t units = 0;
+  WorkLimit limit(units, WorkLimit::kNone);
+  NearestOnTriangle nearest;
+  nearest_on_triangle(query, triangle, limit, nearest);
   return nearest;
 }
 

@@ -14,6 +14,8 @@
 /// triangles need not be evaluated.
 namespace planetree::octree {
 
+class WorkLimit;
+
 using Point = Eigen::Vector3d;
 using Triangle = std::array<Point, 3>;
 
@@ -100,6 +102,11 @@ void locate(const Triangle& triangle, const TriangleResult& result,
 /// plane distance about the corner of the largest angle. If that angle is so flat that double would
 /// lose more than 5 bits, the plane distance is evaluated with 113 bits.
 NearestOnTriangle nearest_on_triangle(const Point& query, const Triangle& triangle) noexcept;
+
+/// Does the same within a limit of work, which is charged for flat faces alone. Returns false if
+/// the limit refuses; `nearest` then has no meaning.
+bool nearest_on_triangle(const Point& query, const Triangle& triangle, WorkLimit& limit,
+                         NearestOnTriangle& nearest) noexcept;
 
 /// Returns the value of nearest_on_triangle().
 inline TriangleValue triangle_value(const Point& query, const Triangle& triangle) noexcept {

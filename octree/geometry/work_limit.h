@@ -100,6 +100,8 @@ struct WorkUnits {
   static constexpr unsigned kBlockAngles = 8;  ///< triangles of a block_share(), in a unit
   static constexpr unsigned kSolidAngles =
       2;  ///< solid angles that block_share() leaves out, in a unit
+  static constexpr unsigned kBallStep = 1;         ///< distance of one triangle from a moving ball
+  static constexpr unsigned kDescription = 40;     ///< nearest point and normal of one triangle
   static constexpr unsigned kFlatFace = 24;        ///< distance from a face too flat for double
   static constexpr unsigned kMoments = 2;          ///< shares of a node's children
   static constexpr unsigned kExactCrossing = 2;    ///< crossing of a triangle, but for exact signs

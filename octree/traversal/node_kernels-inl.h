@@ -118,15 +118,23 @@ struct NearChildren {
 
 // Writes all children of a node to `group`, nearest first, and counts those whose bounds are not
 // above `threshold`. The low bits kChildBits of bounds are cleared.
+//
+// allowed  a bit for each child that may count; the others come last. Null: all.
 HWY_INLINE NearChildren sorted_children(const Node& node, const FloatQuery& query, bool discs,
-                                        float threshold, FrontierGroup& group) {
+                                        float threshold, FrontierGroup& group,
+                                        const unsigned* allowed = nullptr) {
   const FloatTag d;
   const IntTag di;
   const Wide3 p{hn::Set(d, query.x), hn::Set(d, query.y), hn::Set(d, query.z)};
   const std::int32_t max_key = std::bit_cast<std::int32_t>(threshold) | kChildBits;
 #if PLANETREE_EIGHT_LANES
   const hn::RebindToUnsigned<IntTag> du;
-  const auto used = hn::Lt(hn::Iota(di, 0), hn::Set(di, node.child_count));
+  auto used = hn::Lt(hn::Iota(di, 0), hn::Set(di, node.child_count));
+  if (allowed) {
+    HWY_ALIGN static constexpr std::int32_t kBits[kFanOut] = {1, 2, 4, 8, 16, 32, 64, 128};
+    const Ints bits = hn::Set(di, static_cast<std::int32_t>(*allowed));
+    used = hn::And(used, hn::TestBit(bits, hn::Load(di, kBits)));
+  }
   const Ints unsorted = hn::IfThenElse(used, child_keys(node, p, discs, 0), hn::Set(di, kNoKey));
   // Computed separately, so that the traversal can go on without waiting for the sorted order.
   const std::int32_t nearest = hn::GetLane(hn::MinOfLanes(di, unsorted));
@@ -140,6 +148,9 @@ HWY_INLINE NearChildren sorted_children(const Node& node, const FloatQuery& quer
   HWY_ALIGN std::int32_t keys[kFanOut];
   for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(d))
     hn::Store(child_keys(node, p, discs, i), di, keys + i);
+  if (allowed)
+    for (unsigned i = 0; i < kFanOut; ++i)
+      if ((*allowed >> i & 1) == 0) keys[i] = kNoKey;
   // Tells the compiler that there are at most kFanOut children.
   std::sort(keys, keys + std::min<std::size_t>(node.child_count, kFanOut));
   unsigned count = 0;

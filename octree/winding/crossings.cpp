@@ -11,10 +11,11 @@
 #include "octree/geometry/strict_math.h"
 #include "octree/geometry/triangle_distance.h"
 #include "octree/geometry/work_limit.h"
+#include "octree/traversal/segment_filter-inl.h"
+#include "octree/traversal/segment_kernels-inl.h"
 #include "octree/traversal/tree_view.h"
 #include "octree/traversal/tree_walk.h"
 #include "octree/winding/crossing_kernels-inl.h"
-#include "octree/winding/segment_kernels-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace planetree::octree {
@@ -82,42 +83,15 @@ class CrossingSum {
   int tested_crossing_ = 0;
 };
 
-// Does what triangles_met() does, for a block of double vertices: returns a bit for each triangle
-// whose box meets the segment's box.
-unsigned boxes_met(const BlockView& block, const PerturbedSegment& segment) {
-  const Point lower = segment.from.cwiseMin(segment.to);
-  const Point upper = segment.from.cwiseMax(segment.to);
-  unsigned found = 0;
-  for (unsigned i = 0; i < block.triangle_count(); ++i) {
-    const Triangle triangle = block.triangle(i);
-    const bool apart = (greatest_corner(triangle).array() < lower.array()).any() ||
-                       (least_corner(triangle).array() > upper.array()).any();
-    found |= (apart ? 0U : 1U) << i;
-  }
-  return found;
-}
-
 // Counts the crossings of a segment with the triangles of the blocks that are visited.
 class BlockCrossings {
  public:
   BlockCrossings(const TreeInfo& tree, const PerturbedSegment& segment, WorkLimit& limit,
                  TraversalStats& work)
-      : segment_(segment),
-        largest_(largest_coordinate(tree.core_lower, tree.core_upper)),
-        has_strays_(tree.has_strays),
-        block_segment_(FloatSegment::between(segment.from, segment.to, Point::Zero(), largest_)),
-        stray_segment_(
-            has_strays_ ? FloatSegment::between(segment.from, segment.to, Point::Zero(),
-                                                largest_coordinate(tree.box_lower, tree.box_upper))
-                        : block_segment_),
-        crossings_(segment, limit),
-        work_(work) {}
+      : filter_(tree, segment.from, segment.to), crossings_(segment, limit), work_(work) {}
 
   void visit(const BlockView& block, bool is_of_caps) {
-    const float* vertices = block.float_vertices();
-    const FloatSegment& in_float = is_stray(block) ? stray_segment_ : block_segment_;
-    unsigned met =
-        vertices ? triangles_met(block.header(), vertices, in_float) : boxes_met(block, segment_);
+    unsigned met = filter_.met_in(block);
     for (; met != 0; met &= met - 1) {
       crossings_.add(block.triangle(static_cast<unsigned>(std::countr_zero(met))), is_of_caps);
       ++work_.triangles;
@@ -131,20 +105,7 @@ class BlockCrossings {
   }
 
  private:
-  static double largest_coordinate(const Point& lower, const Point& upper) {
-    return std::max(lower.cwiseAbs().maxCoeff(), upper.cwiseAbs().maxCoeff());
-  }
-  // Whether a vertex of a block may have a greater coordinate than any of the core.
-  bool is_stray(const BlockView& block) const {
-    return has_strays_ &&
-           block.vertex(0).cwiseAbs().maxCoeff() + static_cast<double>(block.header().extent) >
-               largest_;
-  }
-
-  const PerturbedSegment& segment_;
-  const double largest_;
-  const bool has_strays_;
-  const FloatSegment block_segment_, stray_segment_;
+  const SegmentFilter filter_;
   CrossingSum crossings_;
   TraversalStats& work_;
 };

@@ -21,6 +21,10 @@ struct FetchRequest {
   /// For a search for triangles: how many within which radius; 0: for the closest point.
   std::uint64_t triangles = 0;
   double radius = 0;
+  /// For a search along a way from `point` by a ball of `radius`: whether it is one, and its end.
+  /// `triangles` is then how many it may meet.
+  std::uint64_t is_way = 0;
+  Vec3 to;  ///< model units
 };
 
 /// Position and velocity of a probe, as given to Probe::motion.

@@ -69,7 +69,10 @@ bool FetchWorker::serve_request(std::size_t index) noexcept {
   options.max_work = std::clamp(static_cast<std::uint32_t>(request.max_work),
                                 QueryOptions::kRealTimeWork, QueryOptions::kNoLimit - 1);
   const Seconds began = clock_();
-  if (request.triangles > 0)
+  if (request.is_way != 0)
+    probe_->fetch_way({request.point, request.to, request.radius}, request.triangles, options,
+                      stop_);
+  else if (request.triangles > 0)
     probe_->fetch_triangles(request.point, request.radius, request.triangles, options, stop_);
   else
     probe_->fetch_pages(request.point, options, FetchReason::kMissed, stop_);

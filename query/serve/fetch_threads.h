@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cache/page_cache.h"
+#include "planetree/contact.h"
 #include "planetree/error.h"
 #include "planetree/types.h"
 #include "query/serve/fetch_requests.h"
@@ -45,6 +46,13 @@ class FetchProbe {
   virtual void fetch_triangles(const Vec3& query, double radius, std::uint64_t count,
                                const QueryOptions& options,
                                const std::atomic<bool>& stop) noexcept = 0;
+  /// Makes the pages resident that a search along a way needs.
+  ///
+  /// way            of a moving ball, model units
+  /// count          number of triangles that the search may meet
+  /// options, stop  as above
+  virtual void fetch_way(const Sweep& way, std::uint64_t count, const QueryOptions& options,
+                         const std::atomic<bool>& stop) noexcept = 0;
   /// Reads one page that a blocking query waits for. Returns false if there is none.
   virtual bool read_awaited_page() noexcept = 0;
 };

@@ -11,9 +11,10 @@
 
 namespace planetree::octree {
 
-/// A segment in float. Along its longest axis it reaches from `lower` to `upper`. Its coordinate on
-/// each other axis is `slope` times the coordinate on the longest axis, plus an offset that is
-/// known within a range.
+/// A segment in float, and all points within a margin of it. Along its longest axis it reaches from
+/// `lower` to `upper`. Its coordinate on each other axis is `slope` times the coordinate on the
+/// longest axis, plus an offset that is known within a range. With x within m of a point y of the
+/// segment, x - y changes that offset by at most m sqrt(1 + slope^2) <= kMarginAcross m.
 ///
 /// Errors. Let u = 2^-24, and M the greatest coordinate of the segment and of what is tested
 /// against it. The rounding of slope and offset moves the segment by at most 2uM each. The product
@@ -21,6 +22,8 @@ namespace planetree::octree {
 /// these, and by as much again for its own rounding. So nothing that the segment meets is found
 /// apart from it. This includes what it meets only by the infinitesimal steps of its ends.
 struct FloatSegment {
+  static constexpr double kMarginAcross = 1.5;  ///< more than sqrt(2): no slope exceeds 1
+
   unsigned axis = 0;
   float lower = 0, upper = 0;
   struct CrossAxis {
@@ -33,30 +36,33 @@ struct FloatSegment {
   ///
   /// largest  maximum coordinate, relative to `origin`, of what is tested against the segment.
   ///          What is clipped to [lower, upper] along `axis` may have larger ones.
+  /// margin   what is so near to the segment counts as met
   static FloatSegment between(const Point& from, const Point& to, const Point& origin,
-                              double largest) {
+                              double largest, double margin = 0) {
     const Point start = from - origin, end = to - origin, way = to - from;
     FloatSegment segment;
     const Point length = way.cwiseAbs();
     segment.axis = length.x() >= length.y() ? (length.x() >= length.z() ? 0 : 2)
                                             : (length.y() >= length.z() ? 1 : 2);
     const double highest =
-        std::max({largest, start.cwiseAbs().maxCoeff(), end.cwiseAbs().maxCoeff()});
+        std::max({largest, start.cwiseAbs().maxCoeff(), end.cwiseAbs().maxCoeff()}) + margin;
     const auto slack_of = [](double coordinate) {
       return kSegmentRounding * std::fabs(coordinate) + kAbsoluteBoundSlack;
     };
     const double first = start[segment.axis], last = end[segment.axis];
     const double lower = std::min(first, last), upper = std::max(first, last);
-    segment.lower = static_cast<float>(lower - slack_of(lower));
-    segment.upper = static_cast<float>(upper + slack_of(upper));
+    segment.lower = static_cast<float>(lower - margin - slack_of(std::fabs(lower) + margin));
+    segment.upper = static_cast<float>(upper + margin + slack_of(std::fabs(upper) + margin));
     const double along = way[segment.axis];
     for (unsigned i = 0; i < 2; ++i) {
       CrossAxis& cross_axes = segment.cross_axes[i];
       cross_axes.axis = (segment.axis + 1 + i) % 3;
       cross_axes.slope = along != 0 ? static_cast<float>(way[cross_axes.axis] / along) : 0;
       // Without a slope, nothing errs but the conversion of the offset.
-      const double slack = slack_of(
-          cross_axes.slope == 0 && way[cross_axes.axis] == 0 ? start[cross_axes.axis] : highest);
+      const double rounded = cross_axes.slope == 0 && way[cross_axes.axis] == 0
+                                 ? std::fabs(start[cross_axes.axis]) + margin
+                                 : highest;
+      const double slack = slack_of(rounded) + kMarginAcross * margin;
       const double offset = start[cross_axes.axis] - static_cast<double>(cross_axes.slope) * first;
       cross_axes.lowest = static_cast<float>(offset - slack);
       cross_axes.highest = static_cast<float>(offset + slack);
