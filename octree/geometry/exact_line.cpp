@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -33,11 +34,17 @@ Leading leading(const Whole<kBits>& value) {
   return {value < 0 ? -mantissa : mantissa, static_cast<int>(shift)};
 }
 
+// The rounded quotient is on the same side of 1 as the true one: 1 is the end of a segment.
 template <class Number>
 double ratio(const Number& numerator, const Number& denominator) {
   if (numerator == 0 || denominator == 0) return 0;
   const Leading above = leading(numerator), below = leading(denominator);
-  return std::ldexp(above.mantissa / below.mantissa, above.exponent - below.exponent);
+  const double rounded =
+      std::ldexp(above.mantissa / below.mantissa, above.exponent - below.exponent);
+  if (numerator == denominator) return 1;
+  const bool is_less = denominator > 0 ? numerator < denominator : numerator > denominator;
+  return is_less ? std::min(rounded, std::nextafter(1.0, 0.0))
+                 : std::max(rounded, std::nextafter(1.0, 2.0));
 }
 
 template <class Number, class Unit>

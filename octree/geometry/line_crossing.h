@@ -39,9 +39,10 @@ struct LineCrossing {
 };
 
 /// Returns where a line passes through a triangle within a range. Whether it passes is exact, and
-/// so is the sign of `t`: a line that begins on the triangle has t = 0. A triangle whose `t`,
-/// correctly rounded, is in the range counts. A triangle without area is never met. A line without
-/// a direction meets the triangles that its origin is on, at 0.
+/// so is the order of `t` and 0 or 1: a line that begins on the triangle has t = 0. A triangle
+/// whose `t`, as rounded, is in the range counts, so that the ends of a segment are exact. A
+/// triangle without area is never met. A line without a direction meets the triangles that its
+/// origin is on, at 0.
 ///
 /// limit   charged for exact numbers. If it refuses, which limit->exceeded() tells, the result has
 ///         no meaning. Null: no limit.
@@ -56,7 +57,7 @@ int exact_line_side(const Line& line, const Point& a, const Point& b,
 int exact_turn_sign(const Line& line, const Point& a, const Point& b, unsigned axis,
                     WorkLimit* limit = nullptr) noexcept;
 /// Returns the position at which a line meets a triangle's plane, right within kRatioRounding of
-/// itself; 0 if it is exactly 0. The line must not be parallel to the plane.
+/// itself, and on the same side of 0 and 1. The line must not be parallel to the plane.
 double exact_position(const Line& line, const Triangle& triangle,
                       WorkLimit* limit = nullptr) noexcept;
 
