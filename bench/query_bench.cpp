@@ -23,6 +23,7 @@ struct Arguments {
   std::size_t queries = 2000;
   std::uint32_t layers = kAllLayers;
   double max_error = 0;  // share of the diagonal
+  double radius = 0;     // of a moving ball, share of its distance from the surface
   std::uint32_t max_work = QueryOptions::kNoLimit;
   bool never_wait = false;
   std::uint32_t page_trace_capacity = 0;
@@ -37,14 +38,42 @@ QueryOptions options_of(const Arguments& arguments, const Box& box) {
   return options;
 }
 
-double query_all(Probe& probe, const std::vector<Vec3>& points, bool side_alone,
+// What is asked at each point: its nearest point, its side, the first contact on the way to the
+// next point, or the first hit of the ray that begins there.
+enum class Part { kNearest, kSide, kSweep, kRay };
+
+Part part_of(const std::string& name) {
+  return name == "side"    ? Part::kSide
+         : name == "sweep" ? Part::kSweep
+         : name == "ray"   ? Part::kRay
+                           : Part::kNearest;
+}
+
+struct Place {
+  Vec3 point, next;
+  double radius;  // of a ball there
+};
+
+double query(Probe& probe, const Place& place, Part part, const QueryOptions& options) {
+  const auto& [point, next, radius] = place;
+  switch (part) {
+    case Part::kSide:
+      return probe.contains(point, options).side == Side::kInside ? 1 : 0;
+    case Part::kSweep:
+      return probe.first_contact({point, next, radius}, options).free ? 1 : 0;
+    case Part::kRay: {
+      const Vec3 direction{next.x - point.x, next.y - point.y, next.z - point.z};
+      return probe.first_hit({point, direction}, options).triangle != kNoTriangle ? 1 : 0;
+    }
+    default:
+      return probe.closest_point(point, options).distance;
+  }
+}
+
+double query_all(Probe& probe, const std::vector<Place>& places, Part part,
                  const QueryOptions& options) {
   double sum = 0;
-  for (const Vec3& point : points)
-    if (side_alone)
-      sum += probe.contains(point, options).side == Side::kInside ? 1 : 0;
-    else
-      sum += probe.closest_point(point, options).distance;
+  for (const Place& place : places) sum += query(probe, place, part, options);
   return sum;
 }
 
@@ -78,6 +107,16 @@ std::vector<Vec3> make_points(const Model& model, Probe& probe, Workload workloa
   return points;
 }
 
+// A ball at each point, on the way to the next one.
+std::vector<Place> make_places(Probe& probe, const std::vector<Vec3>& points, double radius_share) {
+  std::vector<Place> places;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double distance = probe.closest_point(points[i], {.parts = kDistance}).distance;
+    places.push_back({points[i], points[(i + 1) % points.size()], radius_share * distance});
+  }
+  return places;
+}
+
 int run(const Arguments& arguments) {
   const auto fail = [](const Error& error) {
     return std::cerr << "query_bench: " << error.text << '\n', 1;
@@ -94,12 +133,13 @@ int run(const Arguments& arguments) {
     const auto points = make_points(*maker, *making, workload, arguments.queries);
     const Box box = box_of(maker->info());
     const QueryOptions options = options_of(arguments, box);
-    const bool side_alone = arguments.part == "side";
-    query_all(*probe, points, side_alone, {.parts = options.parts});
-    query_all(*probe, points, side_alone, options);
+    const Part part = part_of(arguments.part);
+    const auto places = make_places(*making, points, arguments.radius);
+    query_all(*probe, places, part, {.parts = options.parts});
+    query_all(*probe, places, part, options);
     CALLGRIND_START_INSTRUMENTATION;
     CALLGRIND_ZERO_STATS;
-    const double sum = query_all(*probe, points, side_alone, options);
+    const double sum = query_all(*probe, places, part, options);
     CALLGRIND_STOP_INSTRUMENTATION;
     fmt::print("{:.17g} of {} points\n", sum, points.size());
     return 0;
@@ -117,8 +157,10 @@ int main(int argc, char** argv) {
   app.add_option("model", arguments.model, "File that planetree build wrote")->required();
   app.add_option("--workload", arguments.workload, "uniform, near, path, contact, teleport, medial")
       ->capture_default_str();
-  app.add_option("--part", arguments.part, "distance, side or all")
-      ->check(CLI::IsMember({"distance", "side", "all"}))
+  app.add_option("--part", arguments.part,
+                 "distance, side or all of each point; sweep: the first contact of a ball on the "
+                 "way to the next point; ray: the first hit of the ray to there")
+      ->check(CLI::IsMember({"distance", "side", "all", "sweep", "ray"}))
       ->capture_default_str();
   app.add_option("--queries", arguments.queries, "How many")->capture_default_str();
   app.add_option("--region", arguments.region,
@@ -127,6 +169,9 @@ int main(int argc, char** argv) {
   app.add_option("--layers", arguments.layers, "Layers to open: 1 distance, 2 side, 4 field; sums")
       ->capture_default_str();
   app.add_option("--max-error", arguments.max_error, "Allowed error, as a share of the diagonal")
+      ->capture_default_str();
+  app.add_option("--radius", arguments.radius,
+                 "Radius of the ball, as a share of its distance from the surface")
       ->capture_default_str();
   app.add_option("--max-work", arguments.max_work, "Maximum units of work of a query");
   app.add_option("--page-trace", arguments.page_trace_capacity,

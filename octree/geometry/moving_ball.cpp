@@ -15,15 +15,42 @@ constexpr int kMaxSteps = 64;  // of the search for each end of the interval
 
 double largest(const Point& vector) { return vector.cwiseAbs().maxCoeff(); }
 
+// A unit vector against a way.
+Point against(const Point& way) {
+  const double length = way.norm();
+  return length > kUnresolvedLength ? Point(way * ((kNormRounding - 1) / length))
+                                    : Point(Point::Zero());
+}
+
+// Returns a lower bound on the height of all corners below a point, along a vector of length 1 at
+// most.
+double height_over(const Triangle& triangle, const Point& centre, const Point& normal) {
+  double height = std::numeric_limits<double>::infinity(), farthest = 0;
+  for (const Point& corner : triangle) {
+    const Point from = centre - corner;
+    height = std::min(height, normal.dot(from));
+    farthest = std::max(farthest, largest(from));
+  }
+  return height - kPlaneRounding * farthest;
+}
+
 }  // namespace
 
 MovingBall::MovingBall(const Point& from, const Point& to, double radius)
     : from_(from),
       to_(to),
       way_(to - from),
+      across_(against(way_)),
       radius_(radius),
       position_error_(kPositionRounding * std::max(largest(from), largest(to))),
       length_(way_.norm() * (1 + kNormRounding) + kUnresolvedLength) {}
+
+// Returns a t until which the plane across the motion proves the ball free; may be negative.
+double MovingBall::free_across(const Triangle& triangle) const {
+  const double clear =
+      height_over(triangle, from_, across_) - radius_ * (1 + kPlaneRounding) - position_error_;
+  return clear > 0 ? clear / length_ * (1 - kEndRounding) : 0;
+}
 
 bool MovingBall::touches(const NearestOnTriangle& nearest) const {
   const double distance = std::sqrt(nearest.value.squared);
@@ -31,24 +58,21 @@ bool MovingBall::touches(const NearestOnTriangle& nearest) const {
 }
 
 // Returns how far t may go on without contact; infinity if there is none at all.
+//
+// margin  added to the radius
 double MovingBall::free_step(const Triangle& triangle, const Point& centre,
-                             const NearestOnTriangle& nearest) const {
+                             const NearestOnTriangle& nearest, double margin) const {
   const double distance = std::sqrt(nearest.value.squared);
   const double gap =
-      distance - nearest.value.error - position_error_ - radius_ - distance * kEndRounding;
+      distance - nearest.value.error - position_error_ - radius_ - margin - distance * kEndRounding;
   double step = gap > 0 ? gap / length_ : 0;
 
   const Point toward = centre - nearest.point;
   const double length = toward.norm();
   if (!(length > kUnresolvedLength)) return step;
   const Point normal = toward * ((1 - kNormRounding) / length);
-  double height = std::numeric_limits<double>::infinity(), farthest = 0;
-  for (const Point& corner : triangle) {
-    const Point from = centre - corner;
-    height = std::min(height, normal.dot(from));
-    farthest = std::max(farthest, largest(from));
-  }
-  const double clear = height - radius_ - kPlaneRounding * (farthest + radius_) - position_error_;
+  const double clear =
+      height_over(triangle, centre, normal) - radius_ * (1 + kPlaneRounding) - position_error_;
   if (!(clear > 0)) return step;
   const double closing = kPlaneRounding * largest(way_) - normal.dot(way_);
   return closing > 0 ? std::max(step, clear / closing) : ContactTime::kNever;
@@ -82,11 +106,21 @@ double MovingBall::touched_by(const Triangle& triangle, double free_until,
              : ContactTime::kNever;
 }
 
-ContactTime MovingBall::first_touch(const Triangle& triangle, double start,
-                                    const NearestOnTriangle& begin, double latest,
+bool MovingBall::is_free_until(const Triangle& triangle, double start,
+                               const NearestOnTriangle& nearest, double until) const {
+  const double margin = 8 * (nearest.value.error + position_error_);
+  return start + free_step(triangle, at(start), nearest, margin) * (1 - kNormRounding) > until;
+}
+
+ContactTime MovingBall::first_touch(const Triangle& triangle, double latest,
                                     WorkLimit& limit) const noexcept {
-  double free_until = start;
-  NearestOnTriangle nearest = begin;
+  // A long way from the triangle, the planes that face the ball would prove little.
+  double free_until = free_across(triangle);
+  if (free_until > 1 || free_until > latest) return {};
+  NearestOnTriangle nearest;
+  if (!limit.try_take(WorkUnits::kBallStep) ||
+      !nearest_on_triangle(at(free_until), triangle, limit, nearest))
+    return {free_until, ContactTime::kNever};
   for (int i = 0; i < kMaxSteps && !touches(nearest); ++i) {
     const double step = free_step(triangle, at(free_until), nearest);
     if (!(step > 0)) break;

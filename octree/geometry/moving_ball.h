@@ -16,7 +16,7 @@
 /// point, facing the centre, proves it free until the ball meets that plane; and that the speed is
 /// bounded proves it free for (d - r) / speed. The search takes the larger step until it gains
 /// nothing above rounding. It is Newton's method from the left: above a face it takes one step, and
-/// over an edge or a vertex some four.
+/// over an edge or a vertex some four. It begins where the plane across the motion is met.
 ///
 /// source  conservative advancement, Mirtich 1996, "Impulse-based dynamic simulation of rigid body
 ///         systems", with separating planes in place of bounds on the velocity.
@@ -49,25 +49,33 @@ class MovingBall {
   /// Upper bound on the length of the motion.
   double length() const { return length_; }
 
-  /// Returns when the ball first touches a triangle. The result depends on the set of corners, not
-  /// on their order.
+  /// Returns whether the plane that faces the ball at `start` proves it free until after `until`,
+  /// by more than the uncertainty at which first_touch() stops.
   ///
-  /// start   the ball is known to be free before; the search begins there
-  /// begin   nearest point of the triangle from at(start)
+  /// start    the ball is known to be free before
+  /// nearest  nearest point of the triangle from at(start)
+  bool is_free_until(const Triangle& triangle, double start, const NearestOnTriangle& nearest,
+                     double until) const;
+
+  /// Returns when the ball first touches a triangle. The result depends on the motion and the set
+  /// of corners alone, not on their order.
+  ///
   /// latest  if the ball is free until after `latest`, the result may be that it is free altogether
   /// limit   charged for each distance. If it refuses, which limit.exceeded() tells, `upper` is
   ///         infinity, and `lower` still holds.
-  ContactTime first_touch(const Triangle& triangle, double start, const NearestOnTriangle& begin,
-                          double latest, WorkLimit& limit) const noexcept;
+  ContactTime first_touch(const Triangle& triangle, double latest, WorkLimit& limit) const noexcept;
 
  private:
-  double free_step(const Triangle& triangle, const Point& centre,
-                   const NearestOnTriangle& nearest) const;
+  double free_step(const Triangle& triangle, const Point& centre, const NearestOnTriangle& nearest,
+                   double margin = 0) const;
   bool touches(const NearestOnTriangle& nearest) const;
   double touched_by(const Triangle& triangle, double free_until, const NearestOnTriangle& nearest,
                     WorkLimit& limit) const;
 
+  double free_across(const Triangle& triangle) const;
+
   const Point from_, to_, way_;
+  const Point across_;  // against the motion, of length 1 less rounding; zero: no direction
   const double radius_, position_error_, length_;
 };
 

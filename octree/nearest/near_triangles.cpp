@@ -28,30 +28,30 @@ class DistanceVisitor {
 
   bool visit(const BlockView& block, unsigned near, TraversalWork& work_left) {
     if (!work_left.take(WorkUnits::kNearBlock)) return false;
-    for (unsigned i = 0; i < kMaxBlockTriangles; ++i)
-      rows_.set(i, block.triangle(near_or_first(near, i)));
     bool suffices = true;
-    for (unsigned first = 0; first < kMaxBlockTriangles; first += kTrianglesAtOnce)
-      suffices &= evaluate(block, near >> first & ((1U << kTrianglesAtOnce) - 1), first, work_left);
+    while (near != 0) {
+      unsigned count = 0;
+      for (; near != 0 && count < kTrianglesAtOnce; near &= near - 1) {
+        numbers_[count] = static_cast<unsigned>(std::countr_zero(near));
+        rows_.set(count, block.triangle(numbers_[count]));
+        ++count;
+      }
+      // Rows of other triangles repeat the first.
+      for (unsigned i = count; i < kTrianglesAtOnce; ++i) rows_.copy(0, i);
+      suffices &= evaluate(block, (1U << count) - 1, work_left);
+    }
     return suffices;
   }
 
  private:
-  // Rows of other triangles repeat one that is near.
-  static unsigned near_or_first(unsigned near, unsigned i) {
-    return (near >> i & 1) != 0 ? i : static_cast<unsigned>(std::countr_zero(near));
-  }
-
-  bool evaluate(const BlockView& block, unsigned selected, unsigned first,
-                TraversalWork& work_left) {
-    if (selected == 0) return true;
+  bool evaluate(const BlockView& block, unsigned selected, TraversalWork& work_left) {
     TriangleResults results;
-    const TriangleView view = rows_.view(first);
+    const TriangleView view = rows_.view(0);
     const unsigned refused = evaluate_selected(view, selected, query_, work_left, results);
     for (unsigned taken = selected & ~refused; taken != 0; taken &= taken - 1) {
       const auto lane = static_cast<unsigned>(std::countr_zero(taken));
       ++work_.triangles;
-      sink_.take(results.of(lane), view.triangle(lane), block.id(first + lane));
+      sink_.take(results.of(lane), view.triangle(lane), block.id(numbers_[lane]));
     }
     return refused == 0;
   }
@@ -59,7 +59,8 @@ class DistanceVisitor {
   const Point query_;
   NearTriangleSink& sink_;
   TraversalStats& work_;
-  TriangleRows<kMaxBlockTriangles> rows_;
+  TriangleRows<kTrianglesAtOnce> rows_;
+  unsigned numbers_[kTrianglesAtOnce];  // of the rows' triangles in their block
 };
 
 // Takes triangles as they are.

@@ -32,7 +32,8 @@ class FirstKept final : public octree::TriangleSink {
     return way_.length_between(range_.lower, last_wanted()) + way_.error_at(range_.upper);
   }
   void take(const octree::Triangle& corners, std::uint64_t index) noexcept override {
-    const octree::LineCrossing crossing = octree::cross(way_.line(), way_.range(), corners, &limit_);
+    const octree::LineCrossing crossing =
+        octree::cross(way_.line(), way_.range(), corners, &limit_);
     if (limit_.exceeded() || crossing.sign == 0) return;
     RayHit hit;
     hit.t = crossing.t;

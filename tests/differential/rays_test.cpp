@@ -117,7 +117,7 @@ TEST(Rays, HitWhatTheyPassThrough) {
   for (const NastyFamily& family : nasty_families()) {
     SCOPED_TRACE(std::string(family.name));
     Random random(41);
-    for (int i = 0; i < 3 * test_effort(); ++i) {
+    for (int i = 0; i < 2 * test_effort(); ++i) {
       BuiltModel model(family.make(random), {4096});
       for (int k = 0; k < 40 && !testing::Test::HasFailure(); ++k) {
         const Ray ray = nasty_ray(random, model.triangles());
