@@ -1,9 +1,10 @@
 // The loop of a haptic device, without the device: 1000 ticks a second.
 //
 // haptic_loop MODEL.ptree
-//   A tool tip is pushed into the top of a model and drawn along it. While the tip is below the
-//   surface, a proxy stays on the surface and a spring pulls the tip to it: the god-object method
-//   (Zilles and Salisbury, 1995).
+//   A tool is pushed into the top of a model and drawn along it. A ball, the proxy, follows it by
+//   first contacts, so that it passes through no wall, however thin and however fast the tool is.
+//   It stays outside and slides along the surface, and a spring pulls the tool to it: the
+//   god-object method (Zilles and Salisbury, 1995).
 // haptic_loop MODEL.ptree X,Y [two-sided] [below]
 //   A hand presses the tip down over a place of the model until it rests, or up from below. A tip
 //   that touches from two sides is a ball, and the normal points to it: so it rests on a thin sheet
@@ -31,6 +32,53 @@ Vec3 sum(const Vec3& a, const Vec3& b, double times) {
 }
 
 double length(const Vec3& a) { return std::sqrt(a.x * a.x + a.y * a.y + a.z * a.z); }
+
+double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+// A ball that follows the tool without entering the surface.
+class Proxy {
+ public:
+  // centre  a place where the ball is free
+  // gap     distance that it keeps from the surface: far above rounding, too small to feel
+  Proxy(const Vec3& centre, double radius, double gap)
+      : centre_(centre), radius_(radius), gap_(gap) {}
+
+  // Moves towards the tool: straight on, then along a face, then along the edge between two faces.
+  // Returns false if pages were missing. The ball has then moved as far as is certainly free.
+  bool follow(planetree::Probe& probe, const Vec3& tool, const planetree::QueryOptions& options) {
+    touches_ = false;
+    Vec3 motion = sum(tool, centre_, -1), last_normal;
+    for (int move = 0; move < 3 && length(motion) > gap_; ++move) {
+      const planetree::FirstContact contact =
+          probe.first_contact({centre_, sum(centre_, motion, 1), radius_}, options);
+      const double free = std::min(1.0, contact.t_lower);
+      const double share = contact.free ? 1 : std::max(0.0, free - gap_ / length(motion));
+      centre_ = sum(centre_, motion, share);
+      if (contact.free) return true;
+      if (contact.status == planetree::Status::kDegraded) return false;
+      touches_ = true;
+      motion = sum({}, motion, 1 - share);
+      const Vec3 normal = contact.at.normal;
+      const Vec3 edge = cross(last_normal, normal);
+      motion = dot(edge, edge) > 1e-12 ? sum({}, edge, dot(motion, edge) / dot(edge, edge))
+                                       : sum(motion, normal, -std::min(0.0, dot(motion, normal)));
+      last_normal = normal;
+    }
+    return true;
+  }
+
+  const Vec3& centre() const { return centre_; }
+  bool touches() const { return touches_; }
+
+ private:
+  Vec3 centre_;
+  const double radius_, gap_;
+  bool touches_ = false;  // the surface stopped the last move
+};
 
 // Computes the force. Keeps the last contact for ticks at which the answer is not exact.
 class Spring {
@@ -87,13 +135,13 @@ struct Session {
   }
 };
 
-// The tip starts above the middle of the model's top, moves down into the model, then sideways.
+// The tool starts above the middle of the model's top, moves down into the model, then sideways.
 int stroke(Session& session) {
   const Vec3 size = sum(session.info.core_upper, session.info.core_lower, -1);
-  Vec3 tip = sum(session.info.core_lower, size, 0.5);
-  tip.z = session.info.core_upper.z + 0.01 * session.diagonal;
-  const double step = 1e-4 * session.diagonal;
-  Spring spring(1 / step, 0);
+  const double step = 1e-4 * session.diagonal, radius = 10 * step, stiffness = 1 / step;
+  Vec3 tool = sum(session.info.core_lower, size, 0.5);
+  tool.z = session.info.core_upper.z + 0.01 * session.diagonal;
+  Proxy proxy(tool, radius, 1e-3 * radius);
   planetree::QueryOptions options;
   options.wait = planetree::Wait::kNever;
   auto due = std::chrono::steady_clock::now();
@@ -101,11 +149,20 @@ int stroke(Session& session) {
     std::this_thread::sleep_until(due += kPeriod);
     const bool sinking = session.touching < kTicks / 10;
     const Vec3 move = sinking ? Vec3{0, 0, -step} : Vec3{step, 0, 0};
-    tip = sum(tip, move, 1);
-    session.force(spring, tip, move, options);
+    tool = sum(tool, move, 1);
+    session.probe.motion(tool, sum({}, move, kTicksPerSecond));
+    session.uncertain += !proxy.follow(session.probe, tool, options);
+    const Vec3 force = sum({}, sum(proxy.centre(), tool, -1), stiffness);
+    session.touching += proxy.touches();
+    session.strongest = std::max(session.strongest, length(force));
   }
   session.report();
-  return session.touching > 0 ? 0 : 1;
+  // Not for real time: what the loop promises.
+  const planetree::ClosestPoint end = session.probe.closest_point(proxy.centre());
+  const bool is_outside = end.side == planetree::Side::kOutside && end.upper >= radius;
+  std::printf("the ball of radius %.3g ends %.3g from the surface, %s\n", radius, end.distance,
+              is_outside ? "outside" : "inside");
+  return session.touching > 0 && is_outside ? 0 : 1;
 }
 
 // The hand moves the tip up or down with constant force against friction, and the spring stops it.

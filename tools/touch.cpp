@@ -104,8 +104,9 @@ Result<Outcome> run_real(const TouchArguments& arguments, std::span<const Vec3> 
   const auto period = std::chrono::nanoseconds(std::chrono::seconds(1)) /
                       static_cast<std::int64_t>(arguments.rate_hz);
   Outcome outcome;
+  TouchTool tool(*model, arguments.radius);
   if (!writer) {
-    outcome.record = run_touch_session(*probe, path, period, parts_told(*model));
+    outcome.record = run_touch_session(*probe, tool, path, period, parts_told(*model));
     outcome.stats = model->stats();
     return outcome;
   }
@@ -117,7 +118,7 @@ Result<Outcome> run_real(const TouchArguments& arguments, std::span<const Vec3> 
   TraceRecorder recorder(*model, *writer);
   {
     const DrainThread drain(recorder);
-    outcome.record = run_touch_session(*probe, path, period, parts_told(*model));
+    outcome.record = run_touch_session(*probe, tool, path, period, parts_told(*model));
   }
   if (outcome.trace_written) outcome.trace_written = recorder.finish(path.size());
   outcome.prefetch = recorder.prefetch();
@@ -135,6 +136,7 @@ Result<Outcome> run_simulated(const TouchArguments& arguments, std::span<const V
   options.layers = arguments.layers;
   options.rate_hz = static_cast<std::uint32_t>(arguments.rate_hz);
   options.latency_ns = arguments.latency_ns;
+  options.radius = arguments.radius;
   auto session = SimulatedSession::open(options);
   if (!session) return session.error();
   Outcome outcome;
@@ -205,6 +207,17 @@ void add_touch(CLI::App& app, Console& console, std::function<int()>& action) {
           "Motion of the tip: glide (along the surface, 0.02 % of the diagonal per tick), scratch "
           "(0.1 %) or teleport (to another surface point every hundred ticks)"),
       "glide");
+  const auto is_ball = std::make_shared<bool>(false);
+  subcommand.default_text(
+      subcommand.word(
+          "--tool", {"point", "sphere"},
+          [is_ball](const std::string& name) { *is_ball = name == "sphere"; },
+          "point: asks for its nearest point; sphere: a ball of --radius that follows the path, "
+          "passes through no wall and slides along the surface, by up to three first contacts a "
+          "tick"),
+      "point");
+  subcommand.length("--radius", options->radius, false,
+                    "With --tool sphere: radius of the ball, in model units");
   add_policy(subcommand, options->policy);
   add_open_layers(subcommand, options->layers);
   subcommand.path("--ticks", "OUT.csv", options->ticks,
@@ -242,7 +255,10 @@ void add_touch(CLI::App& app, Console& console, std::function<int()>& action) {
                   "Do not wait for pages by io_uring but poll for them: for systems that end a "
                   "process that tries");
   subcommand.flag("--json", options->json, "Report as one JSON object");
-  subcommand.on_given([options, &console, &action]() -> std::string {
+  subcommand.on_given([options, is_ball, &console, &action]() -> std::string {
+    if (*is_ball != (options->radius > 0))
+      return *is_ball ? "--tool sphere needs a --radius above 0"
+                      : "--radius is that of a ball; add --tool sphere";
     if (options->trace == "-" || options->ticks == "-")
       return "--ticks and --trace need files; standard output is for the report";
     if (options->is_deterministic && (options->cold || options->no_io_uring))

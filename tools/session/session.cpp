@@ -30,11 +30,11 @@ std::uint32_t in_32_bits(nanoseconds time) noexcept {
   return static_cast<std::uint32_t>(std::clamp<std::int64_t>(time.count(), 0, kMax));
 }
 
-void run_ticks(Probe& probe, std::span<const Vec3> path, nanoseconds start, nanoseconds period,
-               const QueryOptions& options, TouchRecord& record) noexcept {
+void run_ticks(Probe& probe, TouchTool& tool, std::span<const Vec3> path, nanoseconds start,
+               nanoseconds period, const QueryOptions& options, TouchRecord& record) noexcept {
   record.rights = become_real_time();
   // One query before the ticks, so that the faults of first accesses are not counted.
-  probe.closest_point(path.front(), options);
+  tool.begin(probe, path.front(), options);
   sleep_until(now());
   const ThreadUsage before = thread_usage();
   for (std::size_t i = 0; i < path.size(); ++i) {
@@ -42,10 +42,11 @@ void run_ticks(Probe& probe, std::span<const Vec3> path, nanoseconds start, nano
     sleep_until(due);
     const nanoseconds began = now();
     probe.motion(path[i], velocity_at(path, i, period));
-    const ClosestPoint answer = probe.closest_point(path[i], options);
+    const ToolAnswer answer = tool.move(probe, path[i], options);
     const nanoseconds ended = now();
-    record.ticks[i] = {in_32_bits(ended - due), in_32_bits(ended - began),
-                       static_cast<float>(answer.upper - answer.lower), answer.status, answer.side};
+    Tick& tick = record.ticks[i] = Tick::of(answer);
+    tick.latency_ns = in_32_bits(ended - due);
+    tick.query_ns = in_32_bits(ended - began);
   }
   const ThreadUsage after = thread_usage();
   record.usage = {after.faults - before.faults,
@@ -72,14 +73,14 @@ Vec3 velocity_at(std::span<const Vec3> path, std::size_t tick, nanoseconds perio
   return {(to.x - from.x) * per_second, (to.y - from.y) * per_second, (to.z - from.z) * per_second};
 }
 
-TouchRecord run_touch_session(Probe& probe, std::span<const Vec3> path, nanoseconds period,
-                              std::uint32_t parts) {
+TouchRecord run_touch_session(Probe& probe, TouchTool& tool, std::span<const Vec3> path,
+                              nanoseconds period, std::uint32_t parts) {
   const QueryOptions options{.parts = parts, .wait = Wait::kNever};
   TouchRecord record;
   record.ticks.resize(path.size());
   record.floor_ns.resize(path.size());
   const nanoseconds start = now() + std::chrono::milliseconds(20);
-  std::thread querying([&] { run_ticks(probe, path, start, period, options, record); });
+  std::thread querying([&] { run_ticks(probe, tool, path, start, period, options, record); });
   std::thread idle([&] { run_idle_thread(start + period / 2, period, record.floor_ns); });
   querying.join();
   idle.join();

@@ -9,6 +9,7 @@
 #include "planetree/probe.h"
 #include "planetree/types.h"
 #include "tools/session/real_time.h"
+#include "tools/session/touch_tool.h"
 
 namespace planetree::tools {
 
@@ -16,9 +17,15 @@ namespace planetree::tools {
 struct Tick {
   std::uint32_t latency_ns = 0;  ///< from the due time to the answer
   std::uint32_t query_ns = 0;    ///< time of motion() and query
-  float width = 0;               ///< upper - lower, model units
+  float width = 0;               ///< ToolAnswer::width, model units
   Status status = Status::kExact;
   Side side = Side::kUnknown;
+  bool touches = false;  ///< ToolAnswer::touches
+
+  /// The tick of an answer, with latencies of 0.
+  static Tick of(const ToolAnswer& answer) {
+    return {0, 0, static_cast<float>(answer.width), answer.status, answer.side, answer.touches};
+  }
 };
 
 /// Record of a simulated haptic loop: real-time queries of the tip's position at fixed times.
@@ -34,9 +41,10 @@ struct TouchRecord {
 Vec3 velocity_at(std::span<const Vec3> path, std::size_t tick,
                  std::chrono::nanoseconds period) noexcept;
 
-/// Runs a session of path.size() ticks. Each query has these `parts`. An idle thread is due half a
-/// tick later on the same processor. It does nothing, so that its lateness is that of the machine.
-TouchRecord run_touch_session(Probe& probe, std::span<const Vec3> path,
+/// Runs a session of path.size() ticks. Queries for nearest points have these `parts`. An idle
+/// thread is due half a tick later on the same processor. It does nothing, so that its lateness is
+/// that of the machine.
+TouchRecord run_touch_session(Probe& probe, TouchTool& tool, std::span<const Vec3> path,
                               std::chrono::nanoseconds period, std::uint32_t parts);
 
 }  // namespace planetree::tools

@@ -62,20 +62,26 @@ std::vector<std::uint32_t> refine_ticks(const TouchRecord& record) {
 /// What no clock and no system decides.
 nlohmann::ordered_json session_report(const TouchArguments& arguments, const TouchRecord& record,
                                       const Stats& stats) {
-  const auto unknown_sides = std::count_if(record.ticks.begin(), record.ticks.end(),
-                                           [](const Tick& t) { return t.side == Side::kUnknown; });
+  // A ball does not ask for sides.
+  const auto unknown_sides = std::count_if(
+      record.ticks.begin(), record.ticks.end(),
+      [&](const Tick& tick) { return arguments.radius == 0 && tick.side == Side::kUnknown; });
   const Sorted<float> width(widths(record));
   const Sorted<std::uint32_t> refine(refine_ticks(record));
   // The trace takes memory besides the budget.
   const std::uint64_t trace_bytes = stats.budget_bytes - arguments.memory_bytes;
   return {{"file", arguments.file.string()},
           {"path", name_of(arguments.motion)},
+          {"tool", arguments.radius > 0 ? "sphere" : "point"},
+          {"radius", arguments.radius},
           {"seed", arguments.seed},
           {"rate_hz", arguments.rate_hz},
           {"policy", name_of(arguments.policy)},
           {"layers", layer_words(stats.layers)},
           {"ticks", record.ticks.size()},
           {"degraded", std::count_if(record.ticks.begin(), record.ticks.end(), is_degraded)},
+          {"touching", std::count_if(record.ticks.begin(), record.ticks.end(),
+                                     [](const Tick& tick) { return tick.touches; })},
           {"unknown_sides", unknown_sides},
           {"refine_ticks_p50", refine.at(0.5)},
           {"refine_ticks_p99", refine.at(0.99)},
@@ -186,6 +192,9 @@ std::string touch_words(const TouchArguments& arguments, const TouchRecord& reco
                       100.0 * static_cast<double>(number("degraded")) /
                           static_cast<double>(std::max<std::uint64_t>(1, number("ticks"))),
                       number("refine_ticks_p99"));
+  if (arguments.radius > 0)
+    text += fmt::format("the surface stopped the ball of radius {} in {} ticks\n", arguments.radius,
+                        grouped_count(number("touching")));
   if (!arguments.is_deterministic) text += machine_words(record, report);
   text += fmt::format("{} pages read, {} evicted\n", grouped_count(number("pages_read")),
                       grouped_count(number("pages_evicted")));

@@ -18,6 +18,7 @@ struct TouchArguments {
   std::uint32_t layers = kAllLayers;             ///< layers to open
   EvictionPolicy policy = OpenOptions{}.policy;  ///< how the page to evict is chosen
   TouchMotion motion = TouchMotion::kGlide;
+  double radius = 0;            ///< of a ball as tool, model units; 0: a point
   std::filesystem::path ticks;  ///< file for all ticks; empty: none
   std::filesystem::path trace;  ///< file for the page trace; empty: none
   std::uint64_t seed = kTouchSeed;

@@ -65,6 +65,7 @@ Result<void> SimulatedSession::open_model() {
   auto probe = Probe::create(*model_);
   if (!probe) return probe.error();
   probe_.emplace(std::move(*probe));
+  tool_.emplace(*model_, options_.radius);
   auto reader = state.claim_reader();
   if (!reader) return reader.error();
   worker_ = std::make_unique<query::FetchWorker>(
@@ -94,7 +95,7 @@ SimulatedRecord SimulatedSession::run(std::span<const Vec3> path, const Sink& si
   record_.ticks.reserve(path.size());
   drain();
   // One query before the ticks, as in real sessions.
-  if (!path.empty()) (void)probe_->closest_point(path.front(), query_options_);
+  if (!path.empty()) tool_->begin(*probe_, path.front(), query_options_);
   disk_.on_read([this] { wait_for_disk(); });
   run_ticks();
   disk_.on_read({});
@@ -131,9 +132,7 @@ void SimulatedSession::run_tick() {
   begin_event(due_ns(tick));
   const Vec3& at = path_[tick];
   if (options_.tells_motion) probe_->motion(at, velocity_at(path_, tick, period_));
-  const ClosestPoint answer = probe_->closest_point(at, query_options_);
-  record_.ticks.push_back(
-      {0, 0, static_cast<float>(answer.upper - answer.lower), answer.status, answer.side});
+  record_.ticks.push_back(Tick::of(tool_->move(*probe_, at, query_options_)));
   drain();
 }
 

@@ -34,6 +34,7 @@ struct SimulationOptions {
   std::uint32_t layers = kAllLayers;
   std::uint32_t rate_hz = 1000;       ///< ticks per second, 1 or more
   std::uint64_t latency_ns = 85'000;  ///< time in which the disk reads a page
+  double radius = 0;                  ///< of a ball as tool, model units; 0: a point
   bool tells_motion = true;           ///< call Probe::motion at each tick
   /// kForPages: the queries wait for their pages, and there is no fetch thread. No answer
   /// lacks a page, and pages are read because queries miss them alone.
@@ -99,6 +100,7 @@ class SimulatedSession {
   const std::atomic<bool> never_{false};
   std::optional<Model> model_;
   std::optional<Probe> probe_;
+  std::optional<TouchTool> tool_;
   std::unique_ptr<query::FetchWorker> worker_;
   QueryOptions query_options_;
   std::span<const Vec3> path_;
