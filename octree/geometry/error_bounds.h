@@ -94,6 +94,8 @@ inline constexpr double kProductUnderflow = 0x1p-950;
 /// Relative error of a quotient of two numbers that are right to 2^-53 each: the quotient rounds
 /// once more, below 4 u; doubled for directed rounding.
 inline constexpr double kRatioRounding = 8 * kDoubleRoundoff;
+/// Least magnitude of a position that is not 0: a smaller one is rounded to it.
+inline constexpr double kMinPosition = 0x1p-1022;
 /// Relative error of the bound on a position's error: fewer than 16 roundings.
 inline constexpr double kPositionInflation = 1 + 0x1p-48;
 /// Greatest error of a position that is taken from double, as a share of the way to the triangle.

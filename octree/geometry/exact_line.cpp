@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "octree/geometry/error_bounds.h"
 #include "octree/geometry/exact_numbers.h"
 #include "octree/geometry/line_crossing.h"
 
@@ -34,14 +35,15 @@ Leading leading(const Whole<kBits>& value) {
   return {value < 0 ? -mantissa : mantissa, static_cast<int>(shift)};
 }
 
-// The rounded quotient is on the same side of 1 as the true one: 1 is the end of a segment.
+// The rounded quotient is on the same side of 0 and of 1, the ends of a segment, as the true one.
 template <class Number>
 double ratio(const Number& numerator, const Number& denominator) {
   if (numerator == 0 || denominator == 0) return 0;
-  const Leading above = leading(numerator), below = leading(denominator);
-  const double rounded =
-      std::ldexp(above.mantissa / below.mantissa, above.exponent - below.exponent);
   if (numerator == denominator) return 1;
+  const Leading above = leading(numerator), below = leading(denominator);
+  const double quotient = above.mantissa / below.mantissa;
+  const double rounded = std::ldexp(quotient, above.exponent - below.exponent);
+  if (std::fabs(rounded) < kMinPosition) return std::copysign(kMinPosition, quotient);
   const bool is_less = denominator > 0 ? numerator < denominator : numerator > denominator;
   return is_less ? std::min(rounded, std::nextafter(1.0, 0.0))
                  : std::max(rounded, std::nextafter(1.0, 2.0));

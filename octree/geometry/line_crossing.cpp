@@ -96,7 +96,7 @@ LineCrossing cross(const Line& line, const LineRange& range, const Triangle& tri
   const auto is_unsure = [&](double end) { return std::fabs(found.t - end) <= found.error; };
   if (is_unsure(range.lower) || is_unsure(range.upper)) {
     found.t = exact_position(line, sorted, limit);
-    found.error = std::fabs(found.t) * kRatioRounding;
+    found.error = std::fabs(found.t) * kRatioRounding + kMinPosition;
   }
   if (!(found.t >= range.lower && found.t <= range.upper)) return {};
   found.sign = sign;

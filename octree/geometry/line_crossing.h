@@ -57,7 +57,8 @@ int exact_line_side(const Line& line, const Point& a, const Point& b,
 int exact_turn_sign(const Line& line, const Point& a, const Point& b, unsigned axis,
                     WorkLimit* limit = nullptr) noexcept;
 /// Returns the position at which a line meets a triangle's plane, right within kRatioRounding of
-/// itself, and on the same side of 0 and 1. The line must not be parallel to the plane.
+/// itself or kMinPosition, and on the same side of 0 and 1. The line must not be parallel to the
+/// plane.
 double exact_position(const Line& line, const Triangle& triangle,
                       WorkLimit* limit = nullptr) noexcept;
 
