@@ -5,11 +5,13 @@
 #include <valgrind/callgrind.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
 #include <string>
 #include <vector>
 
 #include "bench/workloads.h"
+#include "octree/geometry/octcode.h"
 #include "planetree/planetree.h"
 
 namespace planetree::bench {
@@ -26,6 +28,8 @@ struct Arguments {
   double radius = 0;     // of a moving ball, share of its distance from the surface
   std::uint32_t max_work = QueryOptions::kNoLimit;
   bool never_wait = false;
+  bool in_batch = false;
+  bool on_curve = false;  // points in the order of a Morton curve
   std::uint32_t page_trace_capacity = 0;
 };
 
@@ -117,6 +121,29 @@ std::vector<Place> make_places(Probe& probe, const std::vector<Vec3>& points, do
   return places;
 }
 
+double query_batch(Probe& probe, const std::vector<Vec3>& points,
+                   std::vector<ClosestPoint>& answers, const QueryOptions& options) {
+  probe.closest_points(points, answers, options);
+  double sum = 0;
+  for (const ClosestPoint& answer : answers) sum += answer.distance;
+  return sum;
+}
+
+void sort_on_curve(const Box& box, std::vector<Vec3>& points) {
+  const auto cell = [](double at, double lower, double upper) {
+    const double share = (at - lower) / (upper - lower);
+    return static_cast<std::uint32_t>(std::clamp(share, 0.0, 1.0) * ((1 << octree::kLevels) - 1));
+  };
+  std::sort(points.begin(), points.end(), [&](const Vec3& a, const Vec3& b) {
+    const auto code = [&](const Vec3& p) {
+      return octree::morton_code(cell(p.x, box.lower.x, box.upper.x),
+                                 cell(p.y, box.lower.y, box.upper.y),
+                                 cell(p.z, box.lower.z, box.upper.z));
+    };
+    return code(a) < code(b);
+  });
+}
+
 int run(const Arguments& arguments) {
   const auto fail = [](const Error& error) {
     return std::cerr << "query_bench: " << error.text << '\n', 1;
@@ -130,16 +157,19 @@ int run(const Arguments& arguments) {
   if (!probe || !making) return fail(probe ? making.error() : probe.error());
   for (const Workload workload : kWorkloads) {
     if (name_of(workload) != arguments.workload) continue;
-    const auto points = make_points(*maker, *making, workload, arguments.queries);
+    auto points = make_points(*maker, *making, workload, arguments.queries);
     const Box box = box_of(maker->info());
+    if (arguments.on_curve) sort_on_curve(box, points);
     const QueryOptions options = options_of(arguments, box);
     const Part part = part_of(arguments.part);
     const auto places = make_places(*making, points, arguments.radius);
     query_all(*probe, places, part, {.parts = options.parts});
     query_all(*probe, places, part, options);
+    std::vector<ClosestPoint> answers(points.size());
     CALLGRIND_START_INSTRUMENTATION;
     CALLGRIND_ZERO_STATS;
-    const double sum = query_all(*probe, places, part, options);
+    const double sum = arguments.in_batch ? query_batch(*probe, points, answers, options)
+                                          : query_all(*probe, places, part, options);
     CALLGRIND_STOP_INSTRUMENTATION;
     fmt::print("{:.17g} of {} points\n", sum, points.size());
     return 0;
@@ -178,6 +208,8 @@ int main(int argc, char** argv) {
                  "Capacity of a page trace in words, whose cost then counts")
       ->capture_default_str();
   app.add_flag("--never-wait", arguments.never_wait, "Real-time queries; all pages are in memory");
+  app.add_flag("--batch", arguments.in_batch, "Nearest points of a batch on one thread");
+  app.add_flag("--on-curve", arguments.on_curve, "Points in the order of a Morton curve");
   CLI11_PARSE(app, argc, argv);
   return planetree::bench::run(arguments);
 }
