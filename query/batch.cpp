@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -32,6 +33,12 @@ std::uint64_t curve_key(const ModelGeometry& model, const Vec3& query) {
 const Vec3& place_of(const Vec3& query) { return query; }
 const Vec3& place_of(const Ray& ray) { return ray.origin; }
 const Vec3& place_of(const Sweep& sweep) { return sweep.from; }
+
+// Without regard to overflow: only the order of the queries depends on it.
+double distance_between(const Vec3& a, const Vec3& b) {
+  return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y) +
+                   (a.z - b.z) * (a.z - b.z));
+}
 
 // Prefetches all cache lines of an object. Always inlined, because gcc 12 drops calls of a function
 // that only prefetches.
@@ -123,26 +130,33 @@ std::span<std::uint64_t> keys_for(BatchBuffers& storage, std::span<Answer> answe
   return std::span(storage.keys).first(count);
 }
 
-// Runs all queries, in an order that switches pages seldom.
+// Runs all queries, in an order that switches pages seldom: the caller's, if it does.
 template <class Query, class Answer>
 void query_in_order(ProbeState& probe, std::span<const Query> queries, std::span<Answer> answers,
                     const QueryOptions& options) noexcept {
   assert(queries.size() == answers.size());
-  // BatchThreads take locks and wait for each other. Real-time queries must not.
-  BatchThreads* const batch_threads =
-      options.wait == Wait::kNever ? nullptr : probe.model().batch_threads;
+  const auto run = [&](const BatchOrder& order, std::size_t count) {
+    const Window<Query, Answer> window{order, queries.first(count), answers.first(count), options,
+                                       probe.model()};
+    // BatchThreads take locks and wait for each other. Real-time queries must not.
+    BatchThreads* const threads =
+        options.wait == Wait::kNever ? nullptr : probe.model().batch_threads;
+    if (!threads || !threads->run(&window, count, &Window<Query, Answer>::run_piece))
+      window.run(probe, 0, count);
+    queries = queries.subspan(count);
+    answers = answers.subspan(count);
+  };
+  const auto gap = [&](std::size_t i, std::size_t k) {
+    return distance_between(place_of(queries[i]), place_of(queries[k]));
+  };
+  if (BatchOrder::is_in_order(queries.size(), gap)) return run(BatchOrder(), queries.size());
   while (!queries.empty()) {
     const std::size_t count = window_size<Answer>(queries.size());
     BatchOrder order(keys_for(*probe.batch_buffers(), answers, count));
     order.sort(probe.batch_buffers()->sorter, [&](std::size_t i) {
       return curve_key(probe.model().geometry, place_of(queries[i]));
     });
-    const Window<Query, Answer> window{order, queries.first(count), answers.first(count), options,
-                                       probe.model()};
-    if (!batch_threads || !batch_threads->run(&window, count, &Window<Query, Answer>::run_piece))
-      window.run(probe, 0, count);
-    queries = queries.subspan(count);
-    answers = answers.subspan(count);
+    run(order, count);
   }
 }
 

@@ -111,7 +111,7 @@ class CoherenceCache {
   static constexpr double kMaxStepShare = 0x1p-6;  ///< share of the model's diagonal
   static constexpr double kMinStepShare = 0x1p-6;  ///< share of the distance to the surface
   static constexpr double kPathSteps = 24;         ///< steps that a ball lasts for, on a path
-  static constexpr double kCurveSteps = 3;         ///< the same, on a curve
+  static constexpr double kCurveSteps = 24;         ///< the same, on a curve
   static constexpr double kMaxRadiusRatio = 16;    ///< dropped beyond this multiple of radius_for()
 
   Point centre_ = Point::Zero();

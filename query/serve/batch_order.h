@@ -2,6 +2,7 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -24,9 +25,30 @@ struct BatchBuffers {
 /// (docs/experiments/batches.md).
 class BatchOrder {
  public:
+  /// The caller's order.
+  BatchOrder() noexcept : index_mask_(0) {}
   /// keys  memory for one key per query; must outlive this
   explicit BatchOrder(std::span<std::uint64_t> keys) noexcept
       : keys_(keys), index_mask_((std::uint64_t{1} << std::bit_width(keys.size())) - 1) {}
+
+  /// Returns whether `count` queries follow each other closely already, as those of a path or of a
+  /// curve do, so that they may run in the caller's order. `gap(i, k)` is the distance between two
+  /// queries. Looks at a sample: steps from query to query against gaps across the batch. Along a
+  /// curve through a volume, steps are about count^(-1/3) of its size.
+  template <class Gap>
+  static bool is_in_order(std::size_t count, const Gap& gap) noexcept {
+    constexpr std::size_t kSamples = 64;
+    constexpr double kMaxSteps = 3;  // of the steps of a curve
+    if (count <= kSamples) return false;
+    double steps = 0, gaps = 0;
+    for (std::size_t i = 0; i < kSamples; ++i) {
+      const std::size_t at = i * (count - 1) / kSamples;
+      const std::size_t other = (i * 29 + 17) % kSamples * (count - 1) / kSamples;
+      steps += gap(at, at + 1);
+      gaps += gap(at, other);
+    }
+    return steps * std::cbrt(static_cast<double>(count)) <= kMaxSteps * gaps;
+  }
 
   /// Sorts the queries by Morton code; `code(i)` is the code of query i. A key holds the bits of
   /// the code below the common prefix of all codes, and in its last bits the query's index, which
@@ -45,7 +67,9 @@ class BatchOrder {
   }
 
   /// Returns the index of the query that runs i-th.
-  std::size_t query(std::size_t i) const noexcept { return keys_[i] & index_mask_; }
+  std::size_t query(std::size_t i) const noexcept {
+    return keys_.empty() ? i : keys_[i] & index_mask_;
+  }
 
  private:
   const std::span<std::uint64_t> keys_;

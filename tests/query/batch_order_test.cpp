@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <vector>
 
@@ -61,6 +62,31 @@ TEST(BatchOrder, KeepsTheCallersOrderOfEqualCodes) {
 }
 
 TEST(BatchOrder, AcceptsAnEmptyBatch) { EXPECT_TRUE(order_of(0, &scattered).empty()); }
+
+TEST(BatchOrder, TellsPathsFromScatteredQueries) {
+  const auto is_in_order = [](std::size_t count, const auto& place) {
+    return BatchOrder::is_in_order(count, [&](std::size_t i, std::size_t k) {
+      return std::fabs(static_cast<double>(place(i)) - static_cast<double>(place(k)));
+    });
+  };
+  const auto hashed = [](std::size_t i) { return i * 0x9e3779b97f4a7c15 >> 40; };
+  for (const std::size_t count : {std::size_t{1000}, std::size_t{100'000}}) {
+    EXPECT_TRUE(is_in_order(count, [](std::size_t i) { return i; }));
+    EXPECT_TRUE(is_in_order(count, [&](std::size_t i) { return count - i; }));
+    EXPECT_TRUE(is_in_order(count, [](std::size_t) { return 1; }));
+    EXPECT_FALSE(is_in_order(count, hashed));
+    // There and back.
+    EXPECT_FALSE(is_in_order(count, [&](std::size_t i) { return i % 2 == 0 ? i : count - i; }));
+  }
+  EXPECT_FALSE(is_in_order(0, hashed));
+  EXPECT_FALSE(is_in_order(10, [](std::size_t i) { return i; }));
+}
+
+// A query that is not a number has no place.
+TEST(BatchOrder, DoesNotTrustQueriesWithoutAPlace) {
+  EXPECT_FALSE(
+      BatchOrder::is_in_order(1000, [](std::size_t, std::size_t) { return std::nan(""); }));
+}
 
 }  // namespace
 }  // namespace planetree::query
