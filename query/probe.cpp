@@ -45,6 +45,7 @@ ClosestPoint ProbeState::find_closest_point(const Vec3& query,
   octree::TraversalStats work;
   const bool incomplete = query::closest_point(
       {model_.geometry, accessor.pages(), coherence_, work}, query, limited, answer);
+  work_spent_ += work.units;
   if (incomplete && accessor.missed()) request(query, limited, limited.parts);
   side_searches_ += coherence_.searched_side;
   last_parts_ = computed_parts(options.parts);
@@ -73,6 +74,7 @@ ClosestPoint ProbeState::closest_point(const Vec3& query, const QueryOptions& op
   octree::TraversalStats work;
   const SideResult side = find_containment({model_.geometry, accessor.pages(), coherence_, work},
                                            query, scaled, lookup, limited);
+  work_spent_ += work.units;
   if (side.status == Status::kDegraded) {
     if (accessor.missed()) request(query, limited, kSide);
     accessor.pages().need_others();
@@ -145,6 +147,7 @@ Found ProbeState::find_triangles(const TriangleSetQuery& query, std::span<Closes
     begin_trace(PageAccess::Query::kClosestPoint, options.wait, accessor);
     set = query::find_triangles({model_.geometry, accessor.pages(), coherence_, work}, query,
                                 limited, found);
+    work_spent_ += work.units;
     if (set.is_degraded) {
       if (accessor.missed()) request(query.centre, limited, kDistance, found.size(), query.radius);
       accessor.pages().need_others();
@@ -230,6 +233,8 @@ Found Probe::triangles_within(Vec3 query, double radius, std::span<ClosestPoint>
 void Probe::motion(Vec3 position, Vec3 velocity) noexcept {
   state_->note_motion(position, velocity);
 }
+
+std::uint64_t Probe::work_spent() const noexcept { return state_->work_spent(); }
 
 void Probe::contains(std::span<const Vec3> queries, std::span<Containment> answers,
                      const QueryOptions& options) noexcept {

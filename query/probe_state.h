@@ -72,6 +72,8 @@ class ProbeState {
                        side_searches_});
     if (trace_) trace_->motion(position, velocity);
   }
+  /// See Probe::work_spent.
+  std::uint64_t work_spent() const noexcept { return work_spent_; }
   /// Says whether the next queries are of a batch, for the trace.
   void set_in_batch(bool in_batch) noexcept {
     if (trace_) trace_->set_in_batch(in_batch);
@@ -133,6 +135,7 @@ class ProbeState {
   std::unique_ptr<BatchBuffers> batch_buffers_;
   std::uint32_t last_parts_ = kAllParts;         // parts that the last query computed
   SideRule last_side_rule_ = SideRule::kOfFile;  // its side rule; not of contains_fast()
+  std::uint64_t work_spent_ = 0;                 // units of all queries
   std::uint64_t side_searches_ = 0;              // closest-point queries that searched for the side
   Coherence coherence_;
 };

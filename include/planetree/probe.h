@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 
@@ -148,6 +149,13 @@ class PLANETREE_API Probe {
   /// velocity  model units per second. 0 stops prefetching.
   /// threads   the thread that uses the probe.
   void motion(Vec3 position, Vec3 velocity) noexcept;
+
+  /// Returns the work of all queries of this probe so far, in the units of QueryOptions::max_work.
+  /// A program that shares a limit between several queries takes the difference. What the threads
+  /// of a batch do is not counted.
+  ///
+  /// threads  the thread that uses the probe.
+  std::uint64_t work_spent() const noexcept;
 
   /// Answers a batch of query points. An exact answer has the same bits as that of closest_point().
   ///

@@ -124,9 +124,11 @@ TEST_F(RealTime, StopsAtMaxWork) {
   Probe probe = make_probe(model);
   for (const Vec3& query : queries_) (void)probe.closest_point(query);
   const std::uint64_t fetch_requests = model.stats().fetch_requests_served;
+  const std::uint64_t work = probe.work_spent();
   const ClosestPoint answer =
       probe.closest_point({0.01, 0, 0}, {.parts = kDistance, .wait = Wait::kNever, .max_work = 3});
   EXPECT_EQ(answer.status, Status::kDegraded);
+  EXPECT_EQ(probe.work_spent() - work, 3u);
   // All pages are resident, so there is nothing to request.
   EXPECT_EQ(model.stats().fetch_requests_served, fetch_requests);
 }
