@@ -14,6 +14,8 @@ set(planetree_headers
   layers.h
   model.h
   planetree.h
+  point_shell.h
+  pose.h
   probe.h
   stats.h
   trace.h
@@ -25,7 +27,7 @@ set(planetree_library_layers
   geometry page field traversal nearest winding mask
   builder_job builder_mesh_stream builder_mesh builder_sort builder_surface builder_tree
   builder_mask builder_field builder
-  query_file query_answer query_serve query)
+  query_file query_answer query_serve query query_shell)
 
 function(planetree_add_library name)
   add_library(${name} ${ARGN})

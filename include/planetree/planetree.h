@@ -14,6 +14,8 @@
 #include "planetree/export.h"
 #include "planetree/layers.h"
 #include "planetree/model.h"
+#include "planetree/point_shell.h"
+#include "planetree/pose.h"
 #include "planetree/probe.h"
 #include "planetree/stats.h"
 #include "planetree/trace.h"

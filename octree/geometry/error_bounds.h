@@ -29,6 +29,15 @@ inline constexpr double kGapRounding = 0x1p-40;
 /// and a root err by less than 8 u.
 inline constexpr double kFarthestInflation = 1 + 0x1p-40;
 
+// Rigid transforms: octree/geometry/rigid_transform.h derives both.
+
+/// Error of a rotated point, as a share of its length, where the quaternion has length 1. Rounding
+/// errs by 44 u, the quaternion's length by 8.2 u, its rounding by 2 u; 9 u are spare.
+inline constexpr double kRotationRounding = 64 * kDoubleRoundoff;
+/// Error of a translated point, as a share of the length of the translation: its rounding errs by
+/// u, that of the sum by 1.1 u; about doubled.
+inline constexpr double kTranslationRounding = 4 * kDoubleRoundoff;
+
 // The value of a triangle: octree/geometry/triangle_distance.h.
 
 /// A face whose largest angle has a squared sine below this is evaluated with 113 bits. A face's
@@ -52,6 +61,11 @@ inline constexpr double kMaxDiagonal = 4;
 /// over the least sine, 2^-5, is 2^-42 of the distance of the farthest corner, which is at most
 /// their sum; times 4.
 inline constexpr double kValueRounding = 0x1p-40;
+
+/// Margin of the distances at which a point shell prunes, as a share of the limit and the diagonal
+/// of the model's box: query/shell/shell_query.h. Values err by 2^-42 of their sum; times 4. So
+/// what is pruned would have had no depth as computed either.
+inline constexpr double kShellSlack = 0x1p-40;
 
 // The coarse field: octree/field/coarse_field.h. Its lengths are in quanta; the grid is shorter
 // than 2^17 of them, so that a position in it errs by 2^-7 in float.

@@ -157,6 +157,7 @@ const std::vector<Layer>& layers() {
        {"cache/policy", "octree/mask", "octree/nearest", "octree/traversal", "octree/field",
         "octree/page"},
        {}},
+      {"query/shell", {"query", "octree/geometry"}, {}, {}},
       {"tools/cli",
        {"octree/builder/mesh/stream", "octree/geometry", "storage/system"},
        {},

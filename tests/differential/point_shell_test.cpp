@@ -1,0 +1,131 @@
+// Wrenches of point shells in random poses on difficult models, against all triangles.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "planetree/point_shell.h"
+#include "tests/oracle/closed_models.h"
+#include "tests/oracle/nasty_models.h"
+#include "tests/oracle/wrench_oracle.h"
+
+namespace planetree::oracle {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Points all over a ball of this radius, with normals towards its centre.
+std::vector<ShellPoint> ball_shell(Random& random, std::size_t count, double radius) {
+  std::vector<ShellPoint> points;
+  while (points.size() < count) {
+    const Vec3 at = random.in_cube();
+    const double length = std::sqrt(at.x * at.x + at.y * at.y + at.z * at.z);
+    if (length > 0.2 && length < 1) points.push_back({at * (radius / length), at * (-1 / length)});
+  }
+  return points;
+}
+
+struct Case {
+  BuiltModel model;
+  std::vector<ShellPoint> points;
+  PointShell shell;
+  PointShellState state;
+  std::vector<ShellContact> contacts;
+
+  Case(Soup soup, std::vector<ShellPoint> shell_points)
+      : model(std::move(soup), {4096}),
+        points(std::move(shell_points)),
+        shell(std::move(*PointShell::create(points))),
+        state(std::move(*PointShellState::create(shell, model.model()))),
+        contacts(points.size()) {}
+
+  Wrench wrench(const Pose& pose, const ShellOptions& options) {
+    return shell.wrench(model.probe(), state, pose, options, contacts);
+  }
+};
+
+// In contact, deep, or far away.
+Pose random_pose(Random& random, const Soup& soup) {
+  const Vec3 at = nasty_query(random, soup, 1);
+  return {random_rotation(random), at};
+}
+
+ShellOptions random_options(Random& random) {
+  ShellOptions options;
+  options.stiffness = random.magnitude(-3, 10);
+  options.margin = random.one_in(2) ? random.magnitude(-12, -2) : 0;
+  options.max_depth = random.one_in(3) ? random.magnitude(-8, 0) : kInfinity;
+  options.depth_rule = random.one_in(3) ? DepthRule::kTwoSided : DepthRule::kSolid;
+  options.side_rule = SideRule::kSolid;
+  if (random.one_in(2)) options.reference = random.in_cube();
+  return options;
+}
+
+void expect_holds(Case& one, const Pose& pose, const ShellOptions& options, const Wrench& wrench) {
+  const WrenchTruth truth = wrench_truth(
+      one.model.triangles(), one.model.model().info().watertight(), one.points, pose, options);
+  EXPECT_LE(distance_between(wrench.force, truth.force), wrench.force_error + truth.force_slack);
+  EXPECT_LE(distance_between(wrench.torque, truth.torque),
+            wrench.torque_error + truth.torque_slack);
+  const auto deeper = [&](long double depth) { return depth > truth.depth_slack; };
+  const auto in_contact = std::ranges::count_if(truth.depths, deeper);
+  EXPECT_LE(static_cast<std::size_t>(in_contact), wrench.contacts + wrench.undecided);
+  // Every point in contact is listed, with an interval that holds.
+  std::vector<bool> listed(one.points.size());
+  for (const ShellContact& contact : one.contacts) {
+    if (contact.depth_upper == 0) break;
+    listed[contact.point] = true;
+    const long double depth = truth.depths[contact.point];
+    EXPECT_LE(contact.depth_lower, depth + truth.depth_slack);
+    EXPECT_GE(contact.depth_upper, depth - truth.depth_slack);
+    EXPECT_LE(contact.depth_lower, contact.depth);
+    EXPECT_GE(contact.depth_upper, contact.depth);
+  }
+  for (std::size_t i = 0; i < listed.size(); ++i)
+    EXPECT_TRUE(listed[i] || !deeper(truth.depths[i])) << i;
+}
+
+void expect_wrenches_hold(std::span<const NastyFamily> families, int poses) {
+  for (const NastyFamily& family : families) {
+    SCOPED_TRACE(std::string(family.name));
+    Random random(7);
+    Soup soup = family.make(random);
+    const double radius = random.magnitude(-5, 0);
+    Case one(std::move(soup), ball_shell(random, 1 + random.below(60), radius));
+    int exact = 0;
+    for (int i = 0; i < poses; ++i) {
+      const Pose pose = random_pose(random, one.model.triangles());
+      const ShellOptions options = random_options(random);
+      std::ranges::fill(one.contacts, ShellContact{});
+      const Wrench wrench = one.wrench(pose, options);
+      expect_holds(one, pose, options, wrench);
+      EXPECT_EQ(wrench.status == Status::kExact, wrench.undecided == 0);
+      exact += wrench.status == Status::kExact;
+      // Little work.
+      ShellOptions limited = options;
+      limited.max_work = static_cast<std::uint32_t>(random.below(60));
+      if (random.one_in(2)) one.state.reset();
+      std::ranges::fill(one.contacts, ShellContact{});
+      const Wrench less = one.wrench(pose, limited);
+      EXPECT_LE(less.work, limited.max_work);
+      expect_holds(one, pose, options, less);
+      if (testing::Test::HasFailure()) return;
+    }
+    EXPECT_GE(exact, poses * 9 / 10);
+  }
+}
+
+TEST(PointShellOnClosedModels, HasTheWrenchOfAllTriangles) {
+  expect_wrenches_hold(closed_families(), static_cast<int>(12 * test_effort()));
+}
+
+TEST(PointShellOnNastyModels, HasTheWrenchOfAllTriangles) {
+  expect_wrenches_hold(nasty_families(), static_cast<int>(12 * test_effort()));
+}
+
+}  // namespace
+}  // namespace planetree::oracle
