@@ -27,6 +27,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::microseconds kPeriod(1000);
+constexpr double kTicksPerSecond = 1e6 / static_cast<double>(kPeriod.count());
 constexpr int kEdgePoints = 13;  // along each edge of a face of the box: 6 * 13 * 13 points
 
 Vec3 sum(const Vec3& a, const Vec3& b, double times) {
@@ -78,7 +79,7 @@ double percentile(std::vector<double> values, double share) {
 
 // What a session counted.
 struct Report {
-  int late = 0, touching = 0, degraded = 0;
+  int late = 0, woken_late = 0, touching = 0, degraded = 0;
   double strongest = 0, widest = 0;
   std::size_t contacts = 0, queries = 0;
   Wrench last;
@@ -87,6 +88,7 @@ struct Report {
   void add(const Wrench& wrench, Clock::time_point due, Clock::time_point begun) {
     const auto now = Clock::now();
     late += now - due > kPeriod;
+    woken_late += begun - due > kPeriod / 2;
     touching += wrench.contacts > 0;
     degraded += wrench.status != planetree::Status::kExact;
     strongest = std::max(strongest, length(wrench.force));
@@ -100,6 +102,7 @@ struct Report {
     const std::size_t ticks = microseconds.size();
     std::printf("%zu ticks of %zu points: %d late, %d with contact, %d degraded\n", ticks, points,
                 late, touching, degraded);
+    std::printf("%d ticks began late by half a period or more: the machine was busy\n", woken_late);
     std::printf("a tick takes %.1f us (p50), %.1f us (p99.9), and %.1f queries\n",
                 percentile(microseconds, 0.5), percentile(microseconds, 0.999),
                 static_cast<double>(queries) / static_cast<double>(ticks));
@@ -140,6 +143,8 @@ Report run(planetree::Probe& probe, const Tool& tool, Pose device, int ticks) {
   options.margin = 0.01 * tool.size;
   options.max_depth = tool.size;
 
+  std::vector<planetree::ShellContact> contacts(1);
+  Vec3 last = device.translation;
   Report report;
   report.microseconds.reserve(static_cast<std::size_t>(ticks));
   Pose box = device;
@@ -148,8 +153,13 @@ Report run(planetree::Probe& probe, const Tool& tool, Pose device, int ticks) {
   for (int tick = 0; tick < ticks; ++tick) {
     std::this_thread::sleep_until(due += kPeriod);
     const auto begun = Clock::now();
-    const Wrench wrench = tool.shell.wrench(probe, tool.state, box, options);
+    const Wrench wrench = tool.shell.wrench(probe, tool.state, box, options, contacts);
     report.add(wrench, due, begun);
+
+    // Pages are read ahead of the first contact that was found, or of the box.
+    const Vec3 touched = wrench.contacts > 0 ? contacts[0].position : box.translation;
+    probe.motion(touched, sum({}, sum(box.translation, last, -1), kTicksPerSecond));
+    last = box.translation;
 
     // The device goes down until the spring is stretched by the force of contact, then along.
     const Vec3 stretch = sum(device.translation, box.translation, -1);

@@ -70,15 +70,15 @@ struct ShellOptions {
   SideRule side_rule = SideRule::kOfFile;  ///< how sides are decided, by DepthRule::kSolid
   Wait wait = Wait::kForPages;             ///< blocking or real-time queries
   /// Maximum work of the call, in the units of QueryOptions::max_work; a query takes at least one.
-  /// Coarse spheres come first, then the points that may be deepest. With 0, one query of limited
-  /// work bounds all points. kNoLimit, the default, means no limit for Wait::kForPages and
-  /// kRealTimeWork for Wait::kNever.
+  /// Coarse spheres come first, then the points whose depth may have changed most since they were
+  /// queried. With 0, one query of limited work bounds all points. kNoLimit, the default, means no
+  /// limit for Wait::kForPages and kRealTimeWork for Wait::kNever.
   std::uint32_t max_work = QueryOptions::kNoLimit;
   /// Point that the torque is about, in the tool's frame. Coordinates at most 2^500.
   Vec3 reference{};
 
   /// Default of `max_work` for Wait::kNever.
-  static constexpr std::uint32_t kRealTimeWork = 8192;
+  static constexpr std::uint32_t kRealTimeWork = 16384;
 };
 
 /// Force and torque of the model on the tool, in the model's axes. Let d be the depth of point i,
@@ -174,7 +174,7 @@ class PLANETREE_API PointShell {
 };
 
 /// The memory of PointShell::wrench: what is known of each sphere and point of one shell in one
-/// model, from call to call. Takes about 200 bytes a point.
+/// model, from call to call. Takes about 240 bytes a point.
 class PLANETREE_API PointShellState {
  public:
   /// Makes a state that knows nothing.

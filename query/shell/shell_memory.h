@@ -23,6 +23,14 @@ struct Known {
   }
 };
 
+/// A point that is to be queried.
+struct Candidate {
+  std::uint32_t point = 0;  ///< position in SphereTree::points()
+  int urgency = 0;          ///< power of two of what is not known of its depth
+  Vec3 at;                  ///< model frame
+  SignedBounds bounds;      ///< known without a query
+};
+
 /// A point that may be in contact.
 struct ShellHit {
   std::uint32_t point = 0;  ///< position in SphereTree::points()
@@ -36,12 +44,6 @@ struct ShellHit {
 /// greatest size from the start.
 class ShellMemory {
  public:
-  /// A leaf whose points are to be queried.
-  struct Leaf {
-    double lowest = 0;  ///< lower bound of the signed distances of its points
-    std::uint32_t node = 0;
-  };
-
   /// Throws std::bad_alloc.
   ShellMemory(const SphereTree& shell, const ModelInfo& info)
       : tree(shell),
@@ -49,10 +51,10 @@ class ShellMemory {
         nodes(shell.nodes().size()),
         points(shell.points().size()),
         bounds(shell.nodes().size()) {
-    queue.reserve(shell.nodes().size());
-    leaves.reserve(shell.nodes().size());
+    // Writes to all memory.
+    queue.resize(shell.nodes().size());
+    candidates.resize(shell.points().size());
     hits.resize(shell.points().size());
-    hits.clear();
   }
 
   /// Forgets what is known, if other sides or depths are asked for than before.
@@ -61,7 +63,7 @@ class ShellMemory {
     rule_ = rule;
     side_rule_ = side_rule;
     queue.clear();
-    leaves.clear();
+    candidates.clear();
     hits.clear();
   }
   void forget() {
@@ -75,10 +77,11 @@ class ShellMemory {
   std::vector<Known> nodes;   ///< from call to call
   std::vector<Known> points;  ///< from call to call
 
-  std::vector<SignedBounds> bounds;  ///< of the nodes in the queue, this call
-  std::vector<std::uint32_t> queue;  ///< nodes to examine, this call
-  std::vector<Leaf> leaves;          ///< this call
-  std::vector<ShellHit> hits;        ///< this call
+  // Of one call.
+  std::vector<std::uint32_t> queue;  ///< nodes to examine
+  std::vector<SignedBounds> bounds;  ///< of the nodes in the queue
+  std::vector<Candidate> candidates;
+  std::vector<ShellHit> hits;
 
  private:
   SignRule rule_ = SignRule::kContinuous;

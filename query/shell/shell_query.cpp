@@ -66,11 +66,14 @@ void ShellQuery::run() {
   memory_.bounds[0] = {};
   memory_.queue.push_back(0);
   for (std::size_t i = 0; i < memory_.queue.size(); ++i) examine(memory_.queue[i]);
-  std::ranges::sort(memory_.leaves, [](const ShellMemory::Leaf& a, const ShellMemory::Leaf& b) {
-    return a.lowest != b.lowest ? a.lowest < b.lowest : a.node < b.node;
-  });
-  for (const ShellMemory::Leaf& leaf : memory_.leaves)
-    examine_points(tree_.nodes()[leaf.node], memory_.bounds[leaf.node]);
+  // Where the work does not suffice for all, those points come first whose depth may have changed
+  // most: points near contact of which nothing is known, then those that were not queried for long.
+  // Neighbours follow each other, so that queries begin near the last one.
+  if (is_limited_)
+    std::ranges::sort(memory_.candidates, [](const Candidate& a, const Candidate& b) {
+      return a.urgency != b.urgency ? a.urgency > b.urgency : a.point < b.point;
+    });
+  for (const Candidate& candidate : memory_.candidates) examine_point(candidate);
 }
 
 ClosestPoint ShellQuery::ask(const Vec3& at, QueryOptions options) {
@@ -94,26 +97,28 @@ void ShellQuery::examine(std::uint32_t index) {
   const double radius = node.radius + 3 * position_error_;
   SignedBounds bounds = memory_.bounds[index];
   bounds.meet(memory_.nodes[index].moved(centre, sign_rule_));
-  if (settle(node, bounds, radius)) return;
+  if (settle(node, centre, bounds, radius)) return;
   if (may_settle(bounds, radius) && (has_work() || index == 0)) {
     ask_centre(node, centre, bounds);
     memory_.nodes[index] = {centre, bounds};
-    if (settle(node, bounds, radius)) return;
+    if (settle(node, centre, bounds, radius)) return;
   }
-  descend(index, centre, bounds, radius);
+  descend(index, centre, bounds);
 }
 
-// Returns whether the depth of every point of a node is known.
-bool ShellQuery::settle(const Node& node, const SignedBounds& bounds, double radius) {
+// Returns whether nothing more about a node can be told by spheres.
+bool ShellQuery::settle(const Node& node, const Vec3& centre, const SignedBounds& bounds,
+                        double radius) {
   if (sign_rule_ == SignRule::kByPoint) {
     // No point is near the surface, but any of them may be inside.
-    if (!(bounds.gap - radius > free_) || side_rule_ != SideRule::kSolid) return false;
-    find_sides(node, bounds);
+    if (!(bounds.gap - radius > free_)) return false;
+    add_candidates(node, centre, bounds);
     return true;
   }
   if (bounds.lower - radius > free_) return true;
   if (!(bounds.upper + radius < full_)) return false;
-  add_full(node);
+  for (std::uint32_t point = node.first; point < node.first + node.count; ++point)
+    add_full(point, transform_.apply(tree_.points()[point].position));
   return true;
 }
 
@@ -140,14 +145,9 @@ void ShellQuery::ask_centre(const Node& node, const Vec3& centre, SignedBounds& 
   bounds = found;
 }
 
-void ShellQuery::descend(std::uint32_t index, const Vec3& centre, const SignedBounds& bounds,
-                         double radius) {
+void ShellQuery::descend(std::uint32_t index, const Vec3& centre, const SignedBounds& bounds) {
   const Node& node = tree_.nodes()[index];
-  memory_.bounds[index] = bounds;
-  if (node.children == 0) {
-    memory_.leaves.push_back({bounds.lower - radius, index});
-    return;
-  }
+  if (node.children == 0) return add_candidates(node, centre, bounds);
   for (std::uint32_t child = node.first_child; child < node.first_child + node.children; ++child) {
     const Vec3 to = transform_.apply(tree_.nodes()[child].centre);
     memory_.bounds[child] = bounds.moved(upper_length(to - centre), sign_rule_);
@@ -155,36 +155,38 @@ void ShellQuery::descend(std::uint32_t index, const Vec3& centre, const SignedBo
   }
 }
 
-// Asks for the side of each point of a node that is far from the surface, and treats those that are
-// not outside as near it.
-void ShellQuery::find_sides(const Node& node, const SignedBounds& bounds) {
-  const Vec3 centre = transform_.apply(node.centre);
+// Adds the points of a node whose depths do not follow from what is known.
+void ShellQuery::add_candidates(const Node& node, const Vec3& centre, const SignedBounds& bounds) {
   for (std::uint32_t point = node.first; point < node.first + node.count; ++point) {
     const Vec3 at = transform_.apply(tree_.points()[point].position);
     SignedBounds there = bounds.moved(upper_length(at - centre), sign_rule_);
-    if (has_work()) {
-      there.meet(ask(at, {.parts = kSide}).side);
-      if (there.lower > free_) continue;
-    }
-    examine_point(point, at, there);
+    there.meet(memory_.points[point].moved(at, sign_rule_));
+    if (settle(point, at, there)) continue;
+    const double unknown = depth_at(there.lower, 0) - depth_at(there.upper, 0);
+    const int urgency = unknown > 0 ? std::ilogb(unknown) : std::numeric_limits<int>::min();
+    memory_.candidates.push_back({point, urgency, at, there});
   }
 }
 
-void ShellQuery::examine_points(const Node& node, const SignedBounds& bounds) {
-  const Vec3 centre = transform_.apply(node.centre);
-  for (std::uint32_t point = node.first; point < node.first + node.count; ++point) {
-    const Vec3 at = transform_.apply(tree_.points()[point].position);
-    examine_point(point, at, bounds.moved(upper_length(at - centre), sign_rule_));
-  }
+// Returns whether a point is free, or as deep as max_depth, by more than rounding.
+bool ShellQuery::settle(std::uint32_t point, const Vec3& at, const SignedBounds& bounds) {
+  if (bounds.lower - position_error_ > free_) return true;
+  if (!(bounds.upper + position_error_ < full_)) return false;
+  add_full(point, at);
+  return true;
 }
 
-void ShellQuery::examine_point(std::uint32_t point, const Vec3& at, SignedBounds bounds) {
-  Known& known = memory_.points[point];
-  bounds.meet(known.moved(at, sign_rule_));
-  if (bounds.lower - position_error_ > free_) return;
-  if (bounds.upper + position_error_ < full_) return add_full(point, at);
-  Vec3 direction = transform_.rotate(tree_.points()[point].normal);
+void ShellQuery::examine_point(const Candidate& candidate) {
+  const Vec3& at = candidate.at;
+  SignedBounds bounds = candidate.bounds;
+  Vec3 direction = transform_.rotate(tree_.points()[candidate.point].normal);
   bool is_proven = false;
+  // Far from a surface that is not watertight, most points need a side alone.
+  if (has_work() && sign_rule_ == SignRule::kByPoint && bounds.gap - position_error_ > free_ &&
+      side_rule_ == SideRule::kSolid) {
+    bounds.meet(ask(at, {.parts = kSide}).side);
+    if (settle(candidate.point, at, bounds)) return;
+  }
   if (has_work()) {
     Side side = Side::kUnknown;
     const ClosestPoint answer = ask_point(at, bounds, side);
@@ -193,12 +195,11 @@ void ShellQuery::examine_point(std::uint32_t point, const Vec3& at, SignedBounds
     // What is proven does not depend on earlier calls.
     if (!is_proven) found.meet(bounds);
     bounds = found;
-    known = {at, bounds};
-    if (bounds.lower - position_error_ > free_) return;
-    if (bounds.upper + position_error_ < full_) return add_full(point, at);
+    memory_.points[candidate.point] = {at, bounds};
+    if (settle(candidate.point, at, bounds)) return;
     if (options_.force_direction == ForceDirection::kModelNormal) direction = answer.normal;
   }
-  add(point, at, bounds, is_proven, direction);
+  add(candidate.point, at, bounds, is_proven, direction);
 }
 
 // Asks for the distance of a point, and for its side unless it is known.
@@ -221,11 +222,6 @@ ClosestPoint ShellQuery::ask_point(const Vec3& at, const SignedBounds& bounds, S
   return ask(at, options);
 }
 
-void ShellQuery::add_full(const Node& node) {
-  for (std::uint32_t point = node.first; point < node.first + node.count; ++point)
-    add_full(point, transform_.apply(tree_.points()[point].position));
-}
-
 void ShellQuery::add_full(std::uint32_t point, const Vec3& at) {
   const double depth = options_.max_depth;
   if (depth == 0) return;
@@ -235,19 +231,19 @@ void ShellQuery::add_full(std::uint32_t point, const Vec3& at) {
 
 void ShellQuery::add(std::uint32_t point, const Vec3& at, const SignedBounds& bounds,
                      bool is_proven, const Vec3& direction) {
-  const auto depth_at = [&](double distance, double slack) {
-    const double depth = options_.margin - distance;
-    return std::clamp(depth + slack * octree::kEndRounding * std::fabs(depth), 0.0,
-                      options_.max_depth);
-  };
   ShellHit hit{point, is_proven, at, direction, 0, 0, 0};
-  hit.depth_lower = depth_at(bounds.upper + position_error_, -1);
-  hit.depth_upper = depth_at(bounds.lower - position_error_, 1);
+  hit.depth_lower = depth_at(bounds.upper + position_error_, -octree::kEndRounding);
+  hit.depth_upper = depth_at(bounds.lower - position_error_, octree::kEndRounding);
   if (hit.depth_upper == 0) return;
   const double known = std::isfinite(bounds.best) ? bounds.best : bounds.upper;
-  if (std::isfinite(known)) hit.depth = depth_at(known, 0);
-  hit.depth = std::clamp(hit.depth, hit.depth_lower, hit.depth_upper);
+  hit.depth = std::clamp(depth_at(known, 0), hit.depth_lower, hit.depth_upper);
   memory_.hits.push_back(hit);
+}
+
+// Depth at a signed distance, which may be infinite. Slack is a share of the depth.
+double ShellQuery::depth_at(double distance, double slack) const {
+  const double depth = options_.margin - distance;
+  return std::clamp(slack == 0 ? depth : depth + slack * std::fabs(depth), 0.0, options_.max_depth);
 }
 
 }  // namespace planetree::query

@@ -31,19 +31,19 @@ class ShellQuery {
   ClosestPoint ask(const Vec3& at, QueryOptions options);
 
   void examine(std::uint32_t node);
-  bool settle(const Node& node, const SignedBounds& bounds, double radius);
+  bool settle(const Node& node, const Vec3& centre, const SignedBounds& bounds, double radius);
   bool may_settle(const SignedBounds& bounds, double radius) const;
   void ask_centre(const Node& node, const Vec3& centre, SignedBounds& bounds);
-  void descend(std::uint32_t node, const Vec3& centre, const SignedBounds& bounds, double radius);
-  void find_sides(const Node& node, const SignedBounds& bounds);
+  void descend(std::uint32_t node, const Vec3& centre, const SignedBounds& bounds);
 
-  void examine_points(const Node& node, const SignedBounds& bounds);
-  void examine_point(std::uint32_t point, const Vec3& at, SignedBounds bounds);
+  void add_candidates(const Node& node, const Vec3& centre, const SignedBounds& bounds);
+  void examine_point(const Candidate& candidate);
   ClosestPoint ask_point(const Vec3& at, const SignedBounds& bounds, Side& side);
-  void add_full(const Node& node);
+  bool settle(std::uint32_t point, const Vec3& at, const SignedBounds& bounds);
   void add_full(std::uint32_t point, const Vec3& at);
   void add(std::uint32_t point, const Vec3& at, const SignedBounds& bounds, bool is_proven,
            const Vec3& direction);
+  double depth_at(double distance, double slack) const;
 
   Probe& probe_;
   ShellMemory& memory_;

@@ -127,6 +127,66 @@ TEST_F(ShellRealTime, MoreWorkMakesErrorsSmaller) {
   EXPECT_LT(last, 1e-10);
 }
 
+// Each call has work for ten queries or less. What it queries comes last in the next calls.
+TEST_F(ShellRealTime, LittleWorkKeepsUpWithSlowMotion) {
+  const Model model = sample_.open();
+  Probe probe = make_probe(model);
+  PointShellState state = *PointShellState::create(shell_, model);
+  ShellOptions options = options_;
+  options.wait = Wait::kForPages;
+  const Wrench expected = exact(around(0.5), options);
+  state.reset();
+  options.max_work = 60;
+  double first = 0, last = 0;
+  for (int i = 0; i < 60; ++i) {
+    const Wrench found = shell_.wrench(probe, state, around(0.5 + i * 1e-7), options);
+    EXPECT_EQ(found.status, Status::kDegraded);
+    last = found.force_error;
+    if (i == 0) first = last;
+  }
+  EXPECT_GT(expected.contacts, 20u);
+  EXPECT_GT(first, 0.1);
+  EXPECT_LT(last, 1e-3);
+}
+
+// The errors cover the intervals of all contacts, whose errors may all point in one direction.
+TEST_F(ShellRealTime, ErrorsAreNoLessThanThoseOfTheContacts) {
+  const Model model = sample_.open();
+  Probe probe = make_probe(model);
+  ShellOptions options = options_;
+  options.stiffness = 2;
+  options.wait = Wait::kForPages;
+  std::vector<ShellContact> contacts(shell_.size());
+  for (const ForceDirection direction : {ForceDirection::kToolNormal, ForceDirection::kModelNormal})
+    for (const std::uint32_t work : {0U, 20U, 200U, 500U}) {
+      options.force_direction = direction;
+      options.max_work = work;
+      PointShellState state = *PointShellState::create(shell_, model);
+      std::ranges::fill(contacts, ShellContact{});
+      const Pose pose = around(0.5);
+      const Wrench found = shell_.wrench(probe, state, pose, options, contacts);
+      double force = 0, torque = 0;
+      for (const ShellContact& contact : contacts) {
+        const bool is_known =
+            direction == ForceDirection::kToolNormal || contact.status == Status::kExact;
+        const double off = is_known ? std::max(contact.depth_upper - contact.depth,
+                                               contact.depth - contact.depth_lower)
+                                    : contact.depth_upper + contact.depth;
+        const Vec3 arm{contact.position.x - pose.translation.x,
+                       contact.position.y - pose.translation.y,
+                       contact.position.z - pose.translation.z};
+        const Vec3& d = contact.direction;
+        const Vec3 moment{arm.y * d.z - arm.z * d.y, arm.z * d.x - arm.x * d.z,
+                          arm.x * d.y - arm.y * d.x};
+        force += options.stiffness * off;
+        torque += options.stiffness * off * (is_known ? distance(moment, {}) : distance(arm, {}));
+      }
+      EXPECT_GT(found.force_error, 0);
+      EXPECT_GE(found.force_error * (1 + 1e-12), force);
+      EXPECT_GE(found.torque_error * (1 + 1e-12), torque);
+    }
+}
+
 TEST_F(ShellRealTime, AllocatesLocksAndCallsNothing) {
   if (!cache::allocations_are_counted() || !locks_are_counted())
     GTEST_SKIP() << "a sanitizer counts instead";
