@@ -96,12 +96,14 @@ struct Wrench {
   double torque_error = std::numeric_limits<double>::infinity();
   std::size_t contacts = 0;   ///< points of a depth above 0, as best known
   std::size_t undecided = 0;  ///< points whose depth, or direction of force, is not proven
+  std::size_t listed = 0;     ///< points that may be in contact: those that `contacts` receives
   std::size_t queries = 0;    ///< queries of the model
   std::uint64_t work = 0;     ///< work, as limited by ShellOptions::max_work
   /// kExact if every point is proven: force, torque and their errors are then a function of the
   /// file, the shell, the pose and the options alone, with the same bits for any history, thread
-  /// and processor. kDegraded if points are undecided. kBadQuery if the pose is not valid or an
-  /// option is out of range; force and torque are then 0 and their errors infinite.
+  /// and processor. kDegraded if points are undecided, or if force or torque overflows, which is 0
+  /// then. kBadQuery if the pose is not valid or an option is out of range; force and torque are
+  /// then 0 and their errors infinite.
   Status status = Status::kBadQuery;
 };
 
@@ -160,8 +162,8 @@ class PLANETREE_API PointShell {
   ///
   /// probe     of the model that the state was made for.
   /// state     of this shell.
-  /// contacts  receives the points of a `depth_upper` above 0, in the order of their numbers, as
-  ///           many as fit; Wrench::contacts and `undecided` count all.
+  /// contacts  receives the points of a `depth_upper` above 0, in the order of their numbers: as
+  ///           many as fit of Wrench::listed.
   /// threads   the thread that uses the probe; a state is used by one thread at a time.
   Wrench wrench(Probe& probe, PointShellState& state, const Pose& pose,
                 const ShellOptions& options = {},

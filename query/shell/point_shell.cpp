@@ -104,7 +104,9 @@ Wrench PointShell::wrench(Probe& probe, PointShellState& state, const Pose& pose
   for (std::size_t i = 0; i < count; ++i) contacts[i] = contact_of(hits[i], *tree_);
   wrench.queries = query.queries();
   wrench.work = query.work();
-  wrench.status = wrench.undecided == 0 ? Status::kExact : Status::kDegraded;
+  wrench.listed = hits.size();
+  const bool is_finite = std::isfinite(wrench.force_error) && std::isfinite(wrench.torque_error);
+  wrench.status = wrench.undecided == 0 && is_finite ? Status::kExact : Status::kDegraded;
   return wrench;
 }
 

@@ -56,7 +56,7 @@ ShellQuery::ShellQuery(Probe& probe, ShellMemory& memory, const octree::RigidTra
   // A point as deep as max_depth still needs the model's normal.
   if (options.force_direction == ForceDirection::kModelNormal) full_ = -kInfinity;
   // What lies beyond is free, or full, by more than rounding.
-  const double beyond = 2 * position_error_ + octree::kShellSlack * (options.margin + diagonal);
+  const double beyond = 4 * position_error_ + octree::kShellSlack * (options.margin + diagonal);
   free_search_ = free_ + beyond;
   full_search_ = std::max(free_search_, beyond - full_);
   memory.begin(sign_rule_, side_rule_);
@@ -76,17 +76,29 @@ void ShellQuery::run() {
   for (const Candidate& candidate : memory_.candidates) examine_point(candidate);
 }
 
-ClosestPoint ShellQuery::ask(const Vec3& at, QueryOptions options) {
+// Runs a query within the work that is left. No query gets most of it, unless it is little.
+template <class Query>
+auto ShellQuery::limited(QueryOptions options, const Query& query) {
+  const std::uint64_t left = max_work_ - std::min(work_, max_work_);
+  const std::uint64_t share = std::max<std::uint64_t>(QueryOptions::kRealTimeWork, max_work_ / 4);
   options.wait = options_.wait;
   options.side_rule = side_rule_;
-  const std::uint64_t left = max_work_ - std::min(work_, max_work_);
-  if (is_limited_) options.max_work = static_cast<std::uint32_t>(left);
+  if (is_limited_) options.max_work = static_cast<std::uint32_t>(std::min(left, share));
   const std::uint64_t before = probe_.work_spent();
-  const ClosestPoint answer = probe_.closest_point(at, options);
+  const auto answer = query(options);
   const std::uint64_t spent = std::max<std::uint64_t>(1, probe_.work_spent() - before);
   work_ += is_limited_ ? std::min(spent, left) : spent;
   ++queries_;
   return answer;
+}
+
+ClosestPoint ShellQuery::ask(const Vec3& at, const QueryOptions& options) {
+  return limited(options,
+                 [&](const QueryOptions& limits) { return probe_.closest_point(at, limits); });
+}
+
+Side ShellQuery::ask_side(const Vec3& at) {
+  return limited({}, [&](const QueryOptions& limits) { return probe_.contains(at, limits).side; });
 }
 
 void ShellQuery::examine(std::uint32_t index) {
@@ -184,7 +196,7 @@ void ShellQuery::examine_point(const Candidate& candidate) {
   // Far from a surface that is not watertight, most points need a side alone.
   if (has_work() && sign_rule_ == SignRule::kByPoint && bounds.gap - position_error_ > free_ &&
       side_rule_ == SideRule::kSolid) {
-    bounds.meet(ask(at, {.parts = kSide}).side);
+    bounds.meet(ask_side(at));
     if (settle(candidate.point, at, bounds)) return;
   }
   if (has_work()) {

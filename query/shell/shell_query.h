@@ -28,7 +28,10 @@ class ShellQuery {
   using Node = SphereTree::Node;
 
   bool has_work() const { return work_ < max_work_; }
-  ClosestPoint ask(const Vec3& at, QueryOptions options);
+  template <class Query>
+  auto limited(QueryOptions options, const Query& query);
+  ClosestPoint ask(const Vec3& at, const QueryOptions& options);
+  Side ask_side(const Vec3& at);
 
   void examine(std::uint32_t node);
   bool settle(const Node& node, const Vec3& centre, const SignedBounds& bounds, double radius);

@@ -26,7 +26,7 @@ class PointShellTest : public testing::Test {
     return shell_.wrench(probe_, state_, pose, options, contacts_);
   }
   std::span<const ShellContact> listed(const Wrench& found) const {
-    return std::span(contacts_).first(found.contacts);
+    return std::span(contacts_).first(found.listed);
   }
   // The ball's lowest point is about `gap` above the sphere.
   static Pose above(double gap) { return {turned_by(10 * gap), {0.1, 0.2, 1.28 + gap}}; }
@@ -209,6 +209,23 @@ TEST_F(PointShellTest, MovesWithItsStates) {
   EXPECT_EQ(moved.size(), points_.size());
   EXPECT_EQ(bits_of(moved.wrench(probe_, moved_state, above(-0.05))),
             bits_of(wrench(above(-0.05))));
+}
+
+TEST_F(PointShellTest, SaysThatForcesOverflow) {
+  const Wrench found = wrench(above(-0.3), {.stiffness = 1e308});
+  EXPECT_EQ(found.status, Status::kDegraded);
+  EXPECT_EQ(found.force.x, 0);
+  EXPECT_EQ(found.force_error, kInfinity);
+  EXPECT_EQ(found.torque_error, kInfinity);
+}
+
+TEST_F(PointShellTest, IsFreeAnywhereFarAway) {
+  for (const double far : {1e10, 1e30, 1e100, 1e150}) {
+    const Wrench found = wrench({turned_by(1), {0, far, -far}}, {.margin = 0.1});
+    EXPECT_EQ(found.status, Status::kExact) << far;
+    EXPECT_EQ(found.force_error, 0) << far;
+    EXPECT_EQ(found.queries, 1u) << far;
+  }
 }
 
 void expect_refused(const Wrench& wrench) {

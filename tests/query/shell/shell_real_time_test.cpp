@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "octree/geometry/rigid_transform.h"
 #include "planetree/point_shell.h"
 #include "tests/cache/allocation_count.h"
 #include "tests/query/call_trap.h"
@@ -155,6 +156,7 @@ TEST_F(ShellRealTime, ErrorsAreNoLessThanThoseOfTheContacts) {
   Probe probe = make_probe(model);
   ShellOptions options = options_;
   options.stiffness = 2;
+  options.reference = {0.2, -0.1, 0};
   options.wait = Wait::kForPages;
   std::vector<ShellContact> contacts(shell_.size());
   for (const ForceDirection direction : {ForceDirection::kToolNormal, ForceDirection::kModelNormal})
@@ -164,6 +166,7 @@ TEST_F(ShellRealTime, ErrorsAreNoLessThanThoseOfTheContacts) {
       PointShellState state = *PointShellState::create(shell_, model);
       std::ranges::fill(contacts, ShellContact{});
       const Pose pose = around(0.5);
+      const Vec3 about = octree::RigidTransform::of(pose)->apply(options.reference);
       const Wrench found = shell_.wrench(probe, state, pose, options, contacts);
       double force = 0, torque = 0;
       for (const ShellContact& contact : contacts) {
@@ -172,9 +175,8 @@ TEST_F(ShellRealTime, ErrorsAreNoLessThanThoseOfTheContacts) {
         const double off = is_known ? std::max(contact.depth_upper - contact.depth,
                                                contact.depth - contact.depth_lower)
                                     : contact.depth_upper + contact.depth;
-        const Vec3 arm{contact.position.x - pose.translation.x,
-                       contact.position.y - pose.translation.y,
-                       contact.position.z - pose.translation.z};
+        const Vec3 arm{contact.position.x - about.x, contact.position.y - about.y,
+                       contact.position.z - about.z};
         const Vec3& d = contact.direction;
         const Vec3 moment{arm.y * d.z - arm.z * d.y, arm.z * d.x - arm.x * d.z,
                           arm.x * d.y - arm.y * d.x};
