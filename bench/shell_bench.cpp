@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <iostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "planetree/planetree.h"
@@ -30,6 +31,7 @@ struct Arguments {
   double speed = 1e-3;  // of the device in a tick, as a share of the radius
   bool never_wait = false;
   bool forget = false;
+  bool check = false;
   std::uint32_t max_work = QueryOptions::kNoLimit;
 };
 
@@ -74,6 +76,7 @@ struct Totals {
   std::vector<double> microseconds;
   std::size_t contacts = 0, queries = 0, undecided = 0, degraded = 0;
   std::uint64_t work = 0, most_work = 0;
+  std::size_t broken = 0;  // wrenches farther from the exact one than they promise
   double widest = 0;
 
   void add(const Wrench& wrench, double us) {
@@ -98,8 +101,17 @@ struct Totals {
         at(0.5), at(0.99), at(1), static_cast<double>(contacts) / n,
         static_cast<double>(queries) / n, static_cast<double>(work) / n, most_work, degraded,
         static_cast<double>(undecided) / n, widest);
+    if (broken > 0) fmt::print("{} wrenches broke their promise\n", broken);
   }
 };
+
+double distance(const Vec3& a, const Vec3& b) { return length(sum(a, b, -1)); }
+
+// Whether both may be about the same true wrench.
+bool agree(const Wrench& a, const Wrench& b) {
+  return distance(a.force, b.force) <= a.force_error + b.force_error &&
+         distance(a.torque, b.torque) <= a.torque_error + b.torque_error;
+}
 
 // Lowers the ball over the middle of the model's top while it is certainly free.
 Vec3 start(const ModelInfo& info, Probe& probe, double radius) {
@@ -113,8 +125,14 @@ Vec3 start(const ModelInfo& info, Probe& probe, double radius) {
   return at;
 }
 
-Totals slide(const PointShell& shell, PointShellState& state, Probe& probe, Vec3 device,
-             double radius, const Arguments& arguments) {
+// A thread's access to shell and model.
+struct Access {
+  Probe probe;
+  PointShellState state;
+};
+
+Totals slide(const PointShell& shell, Access& access, Access& exact, Vec3 device, double radius,
+             const Arguments& arguments) {
   ShellOptions options;
   options.margin = 0.01 * radius;
   options.max_depth = radius;
@@ -127,15 +145,21 @@ Totals slide(const PointShell& shell, PointShellState& state, Probe& probe, Vec3
   Pose tool{{}, device};
   device.z -= arguments.pull * radius;
   for (std::size_t tick = 0; tick < arguments.ticks; ++tick) {
-    if (arguments.forget) state.reset();
+    if (arguments.forget) access.state.reset();
     const double turn = 1e-3 * static_cast<double>(tick);
     tool.rotation = {std::cos(turn), 0.6 * std::sin(turn), 0, 0.8 * std::sin(turn)};
     CALLGRIND_START_INSTRUMENTATION;
     const auto begin = std::chrono::steady_clock::now();
-    const Wrench wrench = shell.wrench(probe, state, tool, options);
+    const Wrench wrench = shell.wrench(access.probe, access.state, tool, options);
     const auto end = std::chrono::steady_clock::now();
     CALLGRIND_STOP_INSTRUMENTATION;
     totals.add(wrench, std::chrono::duration<double, std::micro>(end - begin).count());
+    if (arguments.check) {
+      ShellOptions blocking = options;
+      blocking.wait = Wait::kForPages;
+      blocking.max_work = QueryOptions::kNoLimit;
+      totals.broken += !agree(wrench, shell.wrench(exact.probe, exact.state, tool, blocking));
+    }
     device = sum(device, {1, 0.3, 0}, step);
     const Vec3 pull = sum(device, tool.translation, -1);
     tool.translation = sum(tool.translation, sum(wrench.force, pull, spring), 1 / points);
@@ -148,17 +172,23 @@ int run(const Arguments& arguments) {
   open.memory_budget_bytes = arguments.memory_mib << 20;
   const auto model = Model::open(arguments.model, open);
   if (!model) return std::cerr << "shell_bench: " << model.error().text << '\n', 1;
-  auto probe = Probe::create(*model);
-  if (!probe) return std::cerr << "shell_bench: " << probe.error().text << '\n', 1;
   const ModelInfo& info = model->info();
   const double radius = arguments.size * length(sum(info.core_upper, info.core_lower, -1));
   const auto shell = PointShell::create(arguments.shape == "cube" ? cube(arguments.points, radius)
                                                                   : ball(arguments.points, radius));
   if (!shell) return std::cerr << "shell_bench: " << shell.error().text << '\n', 1;
-  auto state = PointShellState::create(*shell, *model);
-  if (!state) return std::cerr << "shell_bench: " << state.error().text << '\n', 1;
-  slide(*shell, *state, *probe, start(info, *probe, radius), radius, arguments).print();
-  return 0;
+  std::vector<Access> accesses;
+  for (int i = 0; i < 2; ++i) {
+    auto probe = Probe::create(*model);
+    if (!probe) return std::cerr << "shell_bench: " << probe.error().text << '\n', 1;
+    auto state = PointShellState::create(*shell, *model);
+    if (!state) return std::cerr << "shell_bench: " << state.error().text << '\n', 1;
+    accesses.push_back({std::move(*probe), std::move(*state)});
+  }
+  const Vec3 device = start(info, accesses[1].probe, radius);
+  Totals totals = slide(*shell, accesses[0], accesses[1], device, radius, arguments);
+  totals.print();
+  return totals.broken == 0 ? 0 : 1;
 }
 
 }  // namespace
@@ -186,6 +216,7 @@ int main(int argc, char** argv) {
   app.add_option("--max-work", arguments.max_work, "Limit of each wrench");
   app.add_flag("--never-wait", arguments.never_wait, "Real-time queries");
   app.add_flag("--forget", arguments.forget, "Reset the state before each wrench");
+  app.add_flag("--check", arguments.check, "Compare each wrench with an exact one");
   CLI11_PARSE(app, argc, argv);
   return planetree::bench::run(arguments);
 }

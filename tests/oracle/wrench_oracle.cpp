@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 
-#include "tests/oracle/random.h"
 #include "tests/oracle/winding.h"
 
 namespace planetree::oracle {

@@ -6,6 +6,7 @@
 
 #include "planetree/point_shell.h"
 #include "tests/oracle/brute_force.h"
+#include "tests/oracle/random.h"
 
 /// The wrench of a point shell from every triangle: rotations in long double, distances by
 /// exact_distance(), sides by winding numbers.
@@ -30,6 +31,6 @@ WrenchTruth wrench_truth(std::span<const Corners> triangles, bool is_watertight,
 long double distance_between(const Vec3& a, const Extended& b);
 
 /// A random rotation of length 1, but for rounding.
-Quaternion random_rotation(class Random& random);
+Quaternion random_rotation(Random& random);
 
 }  // namespace planetree::oracle
