@@ -78,7 +78,7 @@ struct ShellOptions {
   Vec3 reference{};
 
   /// Default of `max_work` for Wait::kNever.
-  static constexpr std::uint32_t kRealTimeWork = 16384;
+  static constexpr std::uint32_t kRealTimeWork = 8192;
 };
 
 /// Force and torque of the model on the tool, in the model's axes. Let d be the depth of point i,
