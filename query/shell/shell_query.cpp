@@ -222,8 +222,11 @@ ClosestPoint ShellQuery::ask_point(const Vec3& at, const SignedBounds& bounds, S
   QueryOptions options;
   options.parts = by_model ? kAllParts : knows_side ? kDistance : kDistance | kSide;
   if (options_.depth_rule == DepthRule::kTwoSided) options.normal_rule = NormalRule::kTowardQuery;
-  options.max_distance =
-      bounds.upper < 0 ? full_search_ : free_search_ + kLookAhead * tree_.leaf_radius();
+  // The side of a sheet is that of the nearest feature, however far that is.
+  const bool is_sheet = sign_rule_ == SignRule::kByPoint && side_rule_ == SideRule::kSurface;
+  options.max_distance = is_sheet           ? kInfinity
+                         : bounds.upper < 0 ? full_search_
+                                            : free_search_ + kLookAhead * tree_.leaf_radius();
   ClosestPoint answer = ask(at, options);
   side = (options.parts & (kSide | kNormal)) ? answer.side
          : bounds.lower > 0                  ? Side::kOutside
