@@ -13,13 +13,13 @@
 #include "planetree/model.h"
 #include "planetree/probe.h"
 #include "tools/answer_tally.h"
+#include "tools/answers/ray_rows.h"
 #include "tools/cli/layer_option.h"
 #include "tools/cli/open_model.h"
 #include "tools/cli/progress.h"
-#include "tools/points/point_reader.h"
-#include "tools/session/session_trace.h"
+#include "tools/points/row_reader.h"
+#include "tools/query_trace.h"
 #include "tools/simulation/trace_budget.h"
-#include "tools/trace_file/trace_writer.h"
 
 namespace planetree::tools {
 namespace {
@@ -36,34 +36,7 @@ bool shows_rows(const QueryArguments& arguments, const Console& console) {
   return arguments.output == "-" && console.output_is_terminal();
 }
 
-/// The trace file of a run of queries, and what drains the page trace to it.
-class QueryTrace {
- public:
-  /// Opens the file, if the arguments name one.
-  static Result<std::unique_ptr<QueryTrace>> create(const QueryArguments& arguments) {
-    if (arguments.trace.empty()) return std::unique_ptr<QueryTrace>();
-    auto writer = TraceWriter::create(arguments.trace, arguments.force);
-    if (!writer) return writer.error();
-    return std::unique_ptr<QueryTrace>(new QueryTrace(std::move(*writer)));
-  }
-  Result<void> begin(const Model& model, const QueryArguments& arguments) {
-    TraceHeader header =
-        trace_header_of(model, arguments.file, arguments.memory_bytes, arguments.policy);
-    header.fetch_threads = static_cast<std::uint16_t>(OpenOptions().fetch_threads);
-    recorder_.emplace(model, writer_);
-    return writer_.begin(header);
-  }
-  void drain() { recorder_->drain(); }
-  Result<void> finish() { return recorder_->finish(0); }
-
- private:
-  explicit QueryTrace(TraceWriter writer) : writer_(std::move(writer)) {}
-
-  TraceWriter writer_;
-  std::optional<TraceRecorder> recorder_;
-};
-
-/// Answers points. Its time begins with it, because the first points may come late.
+/// Answers points, rays or sweeps. Its time begins with it, because the first ones may come late.
 class QueryRun {
  public:
   /// trace  records the queries; null: nothing does
@@ -76,35 +49,30 @@ class QueryRun {
         trace_(trace),
         options_(arguments.options),
         form_(arguments.form),
-        progress_(arguments.quiet || shows_rows(arguments, console), arguments.json) {
+        progress_(arguments.quiet || shows_rows(arguments, console), arguments.json),
+        tally_(shape_of(arguments.kind)) {
     if (!arguments.parts_are_given && !form_.signed_distance)
       form_.parts = options_.parts &= parts_told(model, options_.side_rule);
-    progress_.start("answering", 0, "points");
+    progress_.start("answering", 0, tally_.noun());
   }
 
-  int run(PointReader& points, AnswerOutput& output) {
-    const int status = answer(points, output);
+  /// Answers all rows. Completes the output and the trace, and reports.
+  template <class Query>
+  int run(RowReader<Query>& queries, AnswerOutput& output) {
+    form_.shows_range = queries.numbers() > shape_of(arguments_.kind).required;
+    int status = answer(queries, output);
     const auto error = pages_lost(model_.stats());
-    if (error) return std::max(status, console_.fail(arguments_.file.string(), *error));
+    if (error) status = std::max(status, console_.fail(arguments_.file.string(), *error));
+    if (trace_ && status == kDone) status = trace_->finish(arguments_, model_, console_);
+    if (arguments_.json) console_.note(json_report());
     return status;
   }
 
-  std::string json_report() const {
-    const Stats stats = model_.stats();
-    nlohmann::ordered_json report = tally_.json(seconds());
-    report["pages_read"] = stats.pages_read;
-    report["quarantined_pages"] = stats.quarantined_pages;
-    report["waits_given_up"] = stats.waits_given_up;
-    report["budget_bytes"] = arguments_.memory_bytes;  // without the trace
-    report["peak_resident_bytes"] = peak_resident_bytes();
-    return json_line(report);
-  }
-
  private:
-  // Points and their answers, one a row.
-  template <class Answer>
+  // Queries and their answers, one a row.
+  template <class Answer, class Query = Vec3>
   struct Rows {
-    std::span<const Vec3> points;
+    std::span<const Query> queries;
     std::span<const Answer> answers;
   };
 
@@ -132,40 +100,70 @@ class QueryRun {
     });
   }
 
+  int answer(RayReader& rays, AnswerOutput& output) {
+    RayRows rows(probe_, options_, arguments_.hits);
+    return answer_all<RayHit>(rays, output, [&](std::span<const Ray> queries) {
+      rows.answer(queries);
+      return Rows<RayHit, Ray>{rows.rays(), rows.rows()};
+    });
+  }
+  int answer(SweepReader& sweeps, AnswerOutput& output) {
+    std::vector<FirstContact> answers(chunk_points());
+    return answer_all<FirstContact>(sweeps, output, [&](std::span<const Sweep> queries) {
+      const auto own = std::span(answers).first(queries.size());
+      probe_.first_contacts(queries, own, options_);
+      return Rows<FirstContact, Sweep>{queries, own};
+    });
+  }
+
   double seconds() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
   }
 
   std::size_t chunk_points() const {
-    return arguments_.triangles.is_given() ? kChunkOfSets : trace_ ? kTracedPoints : kChunkPoints;
+    const bool has_sets = arguments_.triangles.is_given() || arguments_.hits > 1;
+    return has_sets ? kChunkOfSets : trace_ ? kTracedPoints : kChunkPoints;
   }
 
   // rows_of(queries) returns Rows.
-  template <class Answer, class RowsOf>
-  int answer_all(PointReader& points, AnswerOutput& output, const RowsOf& rows_of) {
+  template <class Answer, class Query, class RowsOf>
+  int answer_all(RowReader<Query>& reader, AnswerOutput& output, const RowsOf& rows_of) {
     AnswerWriter writer(output, form_);
-    std::vector<Vec3> queries(chunk_points());
+    std::vector<Query> queries(chunk_points());
     Result<bool> wanted = true;
     while (wanted && *wanted) {
-      const auto count = points.read(queries);
-      if (!count || (*count == 0 && tally_.points == 0)) {
+      const auto count = reader.read(queries);
+      if (!count || (*count == 0 && tally_.queries() == 0)) {
         progress_.finish();
-        return console_.fail(points.name(), count ? no_point() : count.error());
+        return console_.fail(reader.name(), count ? no_row() : count.error());
       }
       if (*count == 0) break;
-      const Rows<Answer> rows = rows_of(std::span<const Vec3>(queries).first(*count));
+      const auto rows = rows_of(std::span<const Query>(queries).first(*count));
       if (trace_) trace_->drain();
-      if (tally_.points == 0) wanted = writer.begin(Answer());
+      if (tally_.queries() == 0) wanted = writer.begin(Answer());
       tally_.add(*count, rows.answers);
-      if (wanted && *wanted) wanted = writer.write(rows.points, rows.answers);
+      if (wanted && *wanted) wanted = writer.write(rows.queries, rows.answers);
       progress_.add(*count);
     }
     return finish(output, wanted);
   }
 
-  static Error no_point() {
+  std::string json_report() const {
+    const Stats stats = model_.stats();
+    nlohmann::ordered_json report = tally_.json(seconds());
+    report["pages_read"] = stats.pages_read;
+    report["quarantined_pages"] = stats.quarantined_pages;
+    report["waits_given_up"] = stats.waits_given_up;
+    report["budget_bytes"] = arguments_.memory_bytes;  // without the trace
+    report["peak_resident_bytes"] = peak_resident_bytes();
+    return json_line(report);
+  }
+
+  Error no_row() const {
+    const RowShape& shape = shape_of(arguments_.kind);
     return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
-                      "it has no point; give at least one, as a line x,y,z");
+                      "it has no %s; give at least one, as a line %s", shape.noun,
+                      shape.joined_names().c_str());
   }
 
   int finish(AnswerOutput& output, const Result<bool>& wanted) {
@@ -222,17 +220,32 @@ Result<OpenOptions> open_options(const QueryArguments& arguments) {
   return options;
 }
 
-int finish_trace(QueryTrace& trace, const QueryArguments& arguments, const Model& model,
-                 Console& console) {
-  const std::string name = arguments.trace.string();
-  if (const auto written = trace.finish(); !written) return console.fail(name, written.error());
-  if (const std::uint64_t dropped = model.stats().page_trace_dropped; dropped > 0)
-    console.warn(name, std::to_string(dropped) + " records found no room and are missing");
-  return kDone;
-}
-
 std::string output_name(const QueryArguments& arguments) {
   return arguments.output == "-" ? "standard output" : arguments.output.string();
+}
+
+/// Opens the queries and the output, and answers.
+template <class Open>
+int answer_rows(QueryRun& query_run, const QueryArguments& arguments, Console& console,
+                const Open& open) {
+  const std::string name = arguments.points.string();
+  const auto queries = open(name, console.input(), arguments.columns);
+  if (!queries) return console.fail(points_name(name), queries.error());
+  auto output = AnswerOutput::open(arguments.output, arguments.force, console);
+  if (!output) return console.fail(output_name(arguments), output.error());
+  return query_run.run(**queries, *output);
+}
+
+int answer_kind(QueryRun& query_run, const QueryArguments& arguments, Console& console) {
+  switch (arguments.kind) {
+    case RowKind::kPoint:
+      return answer_rows(query_run, arguments, console, open_points);
+    case RowKind::kRay:
+      return answer_rows(query_run, arguments, console, open_rays);
+    case RowKind::kSweep:
+      break;
+  }
+  return answer_rows(query_run, arguments, console, open_sweeps);
 }
 
 }  // namespace
@@ -253,15 +266,7 @@ int run_query(const QueryArguments& arguments, Console& console) {
     if (const auto begun = (*trace)->begin(*model, arguments); !begun)
       return console.fail(arguments.trace.string(), begun.error());
   QueryRun query_run(arguments, console, *model, *probe, trace->get());
-  const auto points = open_points(arguments.points.string(), console.input(), arguments.columns);
-  if (!points) return console.fail(points_name(arguments.points.string()), points.error());
-  auto output = AnswerOutput::open(arguments.output, arguments.force, console);
-  if (!output) return console.fail(output_name(arguments), output.error());
-
-  int status = query_run.run(**points, *output);
-  if (*trace && status == kDone) status = finish_trace(**trace, arguments, *model, console);
-  if (arguments.json) console.note(query_run.json_report());
-  return console.finish(status);
+  return console.finish(answer_kind(query_run, arguments, console));
 }
 
 }  // namespace planetree::tools

@@ -7,10 +7,11 @@
 
 #include "planetree/model.h"
 #include "planetree/types.h"
+#include "tools/answers/answer_writer.h"
+#include "tools/answers/triangle_rows.h"
 #include "tools/cli/subcommand.h"
-#include "tools/points/answer_writer.h"
 #include "tools/points/column_names.h"
-#include "tools/points/triangle_rows.h"
+#include "tools/points/row_shape.h"
 
 namespace CLI {
 class App;
@@ -21,8 +22,9 @@ namespace planetree::tools {
 /// Arguments of `planetree query`.
 struct QueryArguments {
   std::filesystem::path file;
-  std::filesystem::path points = "-";  ///< "-" is standard input
-  ColumnChoice columns;                ///< of a text of points
+  RowKind kind = RowKind::kPoint;      ///< what is queried
+  std::filesystem::path points = "-";  ///< the rows to query; "-" is standard input
+  ColumnChoice columns;                ///< of a text
   std::filesystem::path output = "-";  ///< "-" is standard output
   std::filesystem::path trace;         ///< file for the page trace; empty: none
   bool force = false;                  ///< replace the output
@@ -30,6 +32,7 @@ struct QueryArguments {
   bool parts_are_given = false;       ///< else the parts that the layers tell are computed
   bool contains = false;              ///< request the side alone
   TriangleRowsQuery triangles;        ///< if given: request the triangles about each point
+  std::uint64_t hits = 1;             ///< list at most so many hits of each ray
   std::uint32_t layers = kAllLayers;  ///< layers to open
   EvictionPolicy policy = OpenOptions{}.policy;  ///< how the page to evict is chosen
   std::uint64_t memory_bytes = std::uint64_t{256} << 20;
@@ -41,7 +44,7 @@ struct QueryArguments {
   bool quiet = false;
 };
 
-/// Answers all points in the order of the input. Returns the exit status. Without a point, or with
+/// Answers all rows in the order of the input. Returns the exit status. Without a row, or with
 /// one that cannot be read, an output file is not written.
 int run_query(const QueryArguments& arguments, Console& console);
 

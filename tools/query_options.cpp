@@ -1,6 +1,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "octree/builder/mesh/stream/mesh_text.h"
 #include "tools/cli/layer_option.h"
@@ -14,20 +15,20 @@ namespace {
 
 constexpr std::uint64_t kMaxWaitMs = std::uint64_t{24} * 60 * 60 * 1000;
 constexpr std::uint64_t kMaxNearest = 1000000;
+constexpr std::uint64_t kMaxHits = 1000000;
 constexpr std::uint64_t kMaxWork = QueryOptions::kNoLimit - 1;
 
 struct Options {
   QueryArguments arguments;
+  std::string columns;
+  bool ray = false, sweep = false;
+  std::vector<SubcommandOptions::Option> only_of_points;
   std::uint64_t max_work = QueryOptions::kNoLimit;
   bool never_wait = false;
 };
 
-std::string columns_complaint(const std::string& text) {
-  const auto columns = ColumnChoice::parse(text);
-  return columns ? std::string() : "'" + octree::printable(text) + "': " + columns.error().text;
-}
-
-void add_files(SubcommandOptions& subcommand, QueryArguments& arguments) {
+void add_files(SubcommandOptions& subcommand, Options& options) {
+  QueryArguments& arguments = options.arguments;
   subcommand.require(
       subcommand.path("file", "FILE", arguments.file, "File that planetree build wrote"));
   subcommand.default_text(
@@ -35,12 +36,15 @@ void add_files(SubcommandOptions& subcommand, QueryArguments& arguments) {
           "points", "POINTS", arguments.points,
           "Query points, in model units: text with one point a line (see --columns), PLY (its "
           "vertices) or .f64 (raw little-endian float64 triples); - is standard input, text or "
-          "PLY"),
+          "PLY. With --ray or --sweep: rays or sweeps, as text or .f64"),
       "-");
   subcommand.text(
-      "--columns", "X,Y,Z", columns_complaint,
-      [&arguments](const std::string& text) { arguments.columns = *ColumnChoice::parse(text); },
-      "The columns of x, y and z in a text, by their names in its header or by numbers from 1. "
+      "--columns", "X,Y,Z",
+      [](const std::string& text) { return text.empty() ? "give names or numbers" : ""; },
+      [&options](const std::string& text) { options.columns = text; },
+      "The columns of x, y and z in a text (or of all numbers of a ray or a sweep, in their "
+      "order), "
+      "by their names in its header or by numbers from 1. "
       "Without it a header must name x, y and z (X [m], Point_X, pos.x, Points:0 or easting, "
       "northing, height will do), and without a header they are the first three. Commas, "
       "semicolons, tabs or blanks separate columns; lines that begin with # or // are comments; "
@@ -57,7 +61,8 @@ void add_files(SubcommandOptions& subcommand, QueryArguments& arguments) {
   subcommand.flag("--force", arguments.force, "Replace the output and the trace if they exist");
 }
 
-void add_answers(SubcommandOptions& subcommand, QueryArguments& arguments) {
+void add_answers(SubcommandOptions& subcommand, Options& options) {
+  QueryArguments& arguments = options.arguments;
   static const std::map<std::string, AnswerFormat> formats = {{"csv", AnswerFormat::kCsv},
                                                               {"jsonl", AnswerFormat::kJsonLines},
                                                               {"f64", AnswerFormat::kF64}};
@@ -87,7 +92,7 @@ void add_answers(SubcommandOptions& subcommand, QueryArguments& arguments) {
       "of f64 are NaN");
   static const std::map<std::string, SideRule> rules = {{"solid", SideRule::kSolid},
                                                         {"surface", SideRule::kSurface}};
-  subcommand.default_text(
+  const auto side = subcommand.default_text(
       subcommand.word(
           "--side", {"solid", "surface"},
           [&arguments](const std::string& name) { arguments.options.side_rule = rules.at(name); },
@@ -110,11 +115,12 @@ void add_answers(SubcommandOptions& subcommand, QueryArguments& arguments) {
     for (const auto other : {contains, normal}) subcommand.exclude(triangles, other);
   subcommand.exclude(is_signed, contains);
   subcommand.exclude(parts, contains);
+  options.only_of_points = {contains, nearest, within, is_signed, parts, side, normal};
   subcommand.default_text(
       subcommand.word(
           "--format", {"csv", "jsonl", "f64"},
           [&form](const std::string& name) { form.format = formats.at(name); },
-          "csv: a header and a row for each point; jsonl: an object for each point, with null for "
+          "csv: a header and a row for each answer; jsonl: an object for each, with null for "
           "numbers that are not finite; f64: 14 little-endian float64 for each point (x y z "
           "distance lower upper side px py pz nx ny nz triangle; side is -1 inside, 0 on the "
           "surface, 1 outside; NaN means an unknown side or no triangle), with --contains 4 (x y z "
@@ -124,11 +130,12 @@ void add_answers(SubcommandOptions& subcommand, QueryArguments& arguments) {
 
 void add_limits(SubcommandOptions& subcommand, Options& options) {
   QueryArguments& arguments = options.arguments;
-  subcommand.default_text(
+  const auto max_error = subcommand.default_text(
       subcommand.length("--max-error", arguments.options.max_error, false,
                         "Tolerance of the distance, in model units: the search may stop once the "
                         "interval is this narrow; 0 means exact"),
       "0");
+  options.only_of_points.push_back(max_error);
   subcommand.default_text(subcommand.length("--max-distance", arguments.options.max_distance, true,
                                             "Search no farther than this, in model units"),
                           "inf");
@@ -161,8 +168,43 @@ void add_limits(SubcommandOptions& subcommand, Options& options) {
       "0");
 }
 
+void add_ways(SubcommandOptions& subcommand, Options& options) {
+  const auto ray = subcommand.flag(
+      "--ray", options.ray,
+      "Find the first triangle that each ray passes through. A row is x,y,z,dx,dy,dz: the origin "
+      "and the direction, of any length; t_min,t_max may follow. The ray's points are origin + t * "
+      "direction. In .f64 a ray has all 8 numbers, and t_max may be infinite");
+  const auto sweep = subcommand.flag(
+      "--sweep", options.sweep,
+      "Find the first contact of each moving ball. A row is x0,y0,z0,x1,y1,z1,radius: the centre "
+      "goes straight from the first point to the second while t goes from 0 to 1. In .f64 a sweep "
+      "has these 7 numbers");
+  const auto hits = subcommand.default_text(
+      subcommand.count("--hits", options.arguments.hits, kMaxHits,
+                       "List at most so many hits of each ray, in the order in which they are hit: "
+                       "a row for each. A ray that hits nothing has one row, with t inf"),
+      "1");
+  subcommand.need(hits, ray);
+  subcommand.exclude(sweep, ray);
+  for (const auto other : options.only_of_points)
+    for (const auto way : {ray, sweep}) subcommand.exclude(other, way);
+}
+
+/// Reads the kind of rows and their columns. Returns what is wrong with them.
+std::string take_rows(const Options& options, QueryArguments& arguments) {
+  if (options.ray) arguments.kind = RowKind::kRay;
+  if (options.sweep) arguments.kind = RowKind::kSweep;
+  if (options.columns.empty()) return {};
+  auto columns = ColumnChoice::parse(options.columns, shape_of(arguments.kind));
+  if (!columns)
+    return "--columns: '" + octree::printable(options.columns) + "': " + columns.error().text;
+  arguments.columns = *std::move(columns);
+  return {};
+}
+
 /// What is wrong with the options together.
 std::string complaint_of(const QueryArguments& arguments) {
+  if (arguments.hits == 0) return "--hits 0 finds nothing; give 1 or more";
   if (arguments.triangles.nearest == 0) return "--nearest 0 finds nothing; give 1 or more";
   const std::uint32_t parts = arguments.options.parts;
   const bool has_both =
@@ -179,10 +221,12 @@ void add_query(CLI::App& app, Console& console, std::function<int()>& action) {
   const auto options = std::make_shared<Options>();
   QueryArguments& arguments = options->arguments;
   SubcommandOptions subcommand(app, "query",
-                               "Find the nearest surface point and the side of each point");
-  add_files(subcommand, arguments);
-  add_answers(subcommand, arguments);
+                               "Find the nearest surface point and the side of each point, or "
+                               "what rays and moving balls hit first");
+  add_files(subcommand, *options);
+  add_answers(subcommand, *options);
   add_limits(subcommand, *options);
+  add_ways(subcommand, *options);
   subcommand.flag("--json", arguments.json,
                   "Report at the end as one JSON object, the last line on standard error; progress "
                   "as JSON lines there too");
@@ -193,7 +237,8 @@ void add_query(CLI::App& app, Console& console, std::function<int()>& action) {
     given.options.wait = options->never_wait ? Wait::kNever : Wait::kForPages;
     given.form.parts = given.options.parts;
     action = [options, &console] { return run_query(options->arguments, console); };
-    return complaint_of(given);
+    const std::string complaint = take_rows(*options, given);
+    return complaint.empty() ? complaint_of(given) : complaint;
   });
 }
 

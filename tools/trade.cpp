@@ -14,7 +14,7 @@
 #include "tools/cli/progress.h"
 #include "tools/cli/report_page.h"
 #include "tools/cli/subcommand_options.h"
-#include "tools/points/point_reader.h"
+#include "tools/points/row_reader.h"
 #include "tools/trade/median_edge.h"
 #include "tools/trade/trade_measurement.h"
 #include "tools/trade/trade_page.h"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "tests/fuzz/memory_file.h"
-#include "tools/points/point_reader.h"
+#include "tools/points/row_reader.h"
 
 namespace planetree::tools {
 namespace {

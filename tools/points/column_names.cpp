@@ -27,10 +27,10 @@ struct Family {
   [[nodiscard]] bool is_single() const { return counts == decltype(counts){1, 1, 1}; }
 };
 
-NamedAxes take(const Family& family, AxisColumns& columns) {
-  if (!family.is_single()) return NamedAxes::kAmbiguous;
+NamedColumns take(const Family& family, AxisColumns& columns) {
+  if (!family.is_single()) return NamedColumns::kAmbiguous;
   columns = family.columns;
-  return NamedAxes::kOnce;
+  return NamedColumns::kOnce;
 }
 
 /// The number of a column as typed. Empty if the text is no number.
@@ -42,28 +42,46 @@ std::optional<std::size_t> number_of(std::string_view text) {
   return value;
 }
 
-Error bad_choice() {
-  return make_error(
-      ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
-      "give the three different columns of x, y and z, as X,Y,Z: names of the header, "
-      "or numbers from 1");
+Error bad_choice(const RowShape& shape) {
+  const std::string form = upper_case(shape.joined_names());
+  return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
+                    "give the different columns of %s, as %s: names of the header, or numbers from "
+                    "1",
+                    shape.listed_names("and").c_str(), form.c_str());
+}
+
+/// Finds one name. `column` is unchanged if it is not found once.
+NamedColumns find_name(std::string_view wanted, const std::vector<std::string_view>& names,
+                       std::size_t& column) {
+  std::size_t whole = 0, without_unit = 0, found = kNoColumn;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const bool is_whole = lower_case(names[i]) == lower_case(wanted);
+    if (!is_whole && lower_case(without_brackets(names[i])) != lower_case(wanted)) continue;
+    if (is_whole ? whole++ == 0 : whole == 0) found = i;
+    without_unit += is_whole ? 0 : 1;
+  }
+  if (whole + without_unit == 0) return NamedColumns::kNone;
+  if (whole > 1 || (whole == 0 && without_unit > 1)) return NamedColumns::kAmbiguous;
+  column = found;
+  return NamedColumns::kOnce;
 }
 
 }  // namespace
 
-Result<ColumnChoice> ColumnChoice::parse(std::string_view text) {
+Result<ColumnChoice> ColumnChoice::parse(std::string_view text, const RowShape& shape) {
   constexpr std::size_t kMaxColumn = 100'000;
   ColumnChoice choice;
   for (LineFields fields(text, Separator::kComma); fields.next();) {
     const auto number = number_of(fields.field());
     if (fields.field().empty() || (number && (*number == 0 || *number > kMaxColumn)))
-      return bad_choice();
+      return bad_choice(shape);
     choice.columns.emplace_back(fields.field());
   }
   auto sorted = choice.columns;
   std::sort(sorted.begin(), sorted.end());
-  if (sorted.size() != kAxes || std::unique(sorted.begin(), sorted.end()) != sorted.end())
-    return bad_choice();
+  if (sorted.size() < shape.required || sorted.size() > shape.count ||
+      std::unique(sorted.begin(), sorted.end()) != sorted.end())
+    return bad_choice(shape);
   return choice;
 }
 
@@ -72,7 +90,7 @@ bool ColumnChoice::is_numeric() const {
                                  [](const std::string& column) { return number_of(column); });
 }
 
-NamedAxes find_axes(const std::vector<std::string_view>& names, AxisColumns& columns) {
+NamedColumns find_axes(const std::vector<std::string_view>& names, AxisColumns& columns) {
   std::map<std::string, Family> families;
   Family survey;
   for (std::size_t column = 0; column < names.size(); ++column) {
@@ -82,42 +100,49 @@ NamedAxes find_axes(const std::vector<std::string_view>& names, AxisColumns& col
   }
   if (const auto plain = families.find(""); plain != families.end() && plain->second.is_complete())
     return take(plain->second, columns);
-  NamedAxes found = NamedAxes::kNone;
+  NamedColumns found = NamedColumns::kNone;
   for (const auto& [name, family] : families) {
     if (!family.is_complete()) continue;
-    if (found != NamedAxes::kNone) return NamedAxes::kAmbiguous;
+    if (found != NamedColumns::kNone) return NamedColumns::kAmbiguous;
     found = take(family, columns);
   }
-  if (found != NamedAxes::kNone) return found;
+  if (found != NamedColumns::kNone) return found;
   if (survey.is_complete()) return take(survey, columns);
   // x and y with a height
   Family mixed = families[""];
   mixed.counts[2] = survey.counts[2];
   mixed.columns[2] = survey.columns[2];
-  return mixed.is_complete() ? take(mixed, columns) : NamedAxes::kNone;
+  return mixed.is_complete() ? take(mixed, columns) : NamedColumns::kNone;
 }
 
-NamedAxes find_chosen(const ColumnChoice& choice, const std::vector<std::string_view>& names,
-                      AxisColumns& columns) {
-  for (std::size_t axis = 0; axis < kAxes; ++axis) {
-    const std::string& wanted = choice.columns[axis];
-    if (const auto number = number_of(wanted)) {
-      columns[axis] = *number - 1;
+NamedColumns find_named(const RowShape& shape, const std::vector<std::string_view>& names,
+                        ColumnList& columns) {
+  columns.assign(shape.count, kNoColumn);
+  NamedColumns found = NamedColumns::kOnce;
+  for (std::size_t i = 0; i < shape.count; ++i) {
+    const NamedColumns named = find_name(shape.names[i], names, columns[i]);
+    if (named == NamedColumns::kNone && i < shape.required) return NamedColumns::kNone;
+    if (named == NamedColumns::kAmbiguous) found = NamedColumns::kAmbiguous;
+  }
+  while (columns.back() == kNoColumn && columns.size() > shape.required) columns.pop_back();
+  return found;
+}
+
+NamedColumns find_chosen(const ColumnChoice& choice, const std::vector<std::string_view>& names,
+                         ColumnList& columns) {
+  columns.assign(choice.columns.size(), kNoColumn);
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (const auto number = number_of(choice.columns[i])) {
+      columns[i] = *number - 1;
       continue;
     }
-    std::size_t whole = 0, without_unit = 0;
-    for (std::size_t column = 0; column < names.size(); ++column) {
-      const bool is_whole = lower_case(names[column]) == lower_case(wanted);
-      if (!is_whole && lower_case(without_brackets(names[column])) != lower_case(wanted)) continue;
-      if (is_whole ? whole++ == 0 : whole == 0) columns[axis] = column;
-      without_unit += is_whole ? 0 : 1;
-    }
-    if (whole + without_unit == 0) return NamedAxes::kNone;
-    if (whole > 1 || (whole == 0 && without_unit > 1)) return NamedAxes::kAmbiguous;
+    const NamedColumns found = find_name(choice.columns[i], names, columns[i]);
+    if (found != NamedColumns::kOnce) return found;
   }
-  const bool distinct =
-      columns[0] != columns[1] && columns[1] != columns[2] && columns[2] != columns[0];
-  return distinct ? NamedAxes::kOnce : NamedAxes::kAmbiguous;
+  ColumnList sorted = columns;
+  std::sort(sorted.begin(), sorted.end());
+  const bool distinct = std::unique(sorted.begin(), sorted.end()) == sorted.end();
+  return distinct ? NamedColumns::kOnce : NamedColumns::kAmbiguous;
 }
 
 }  // namespace planetree::tools

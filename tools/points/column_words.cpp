@@ -88,6 +88,13 @@ std::string lower_case(std::string_view text) {
   return lower;
 }
 
+std::string upper_case(std::string_view text) {
+  std::string upper(text);
+  for (char& c : upper)
+    if (is_lower(c)) c = static_cast<char>(c & ~0x20);
+  return upper;
+}
+
 std::string without_brackets(std::string_view name) {
   constexpr std::string_view kOpening = "[({<", kClosing = "])}>";
   std::string text;

@@ -16,6 +16,7 @@ struct AxisName {
 };
 
 [[nodiscard]] std::string lower_case(std::string_view text);
+[[nodiscard]] std::string upper_case(std::string_view text);
 
 /// The name without what is in brackets, such as a unit.
 [[nodiscard]] std::string without_brackets(std::string_view name);

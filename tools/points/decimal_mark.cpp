@@ -57,7 +57,7 @@ class MarkFinder {
 }  // namespace
 
 Result<DecimalMark> find_decimal_mark(std::span<const SampleLines::Line> rows, Separator separator,
-                                      const AxisColumns& columns) {
+                                      const ColumnList& columns) {
   MarkFinder marks;
   for (const SampleLines::Line& row : rows) {
     if (is_comment(row.text)) continue;

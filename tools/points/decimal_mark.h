@@ -9,11 +9,11 @@
 
 namespace planetree::tools {
 
-/// Finds the decimal mark of the coordinates in the first rows. It is a comma only if that leaves
-/// no doubt: no coordinate has a point, and not all commas may group thousands.
+/// Finds the decimal mark of the wanted numbers in the first rows. It is a comma only if that
+/// leaves no doubt: none of them has a point, and not all commas may group thousands.
 ///
 /// errors  kBadInput, naming the line
 Result<DecimalMark> find_decimal_mark(std::span<const SampleLines::Line> rows, Separator separator,
-                                      const AxisColumns& columns);
+                                      const ColumnList& columns);
 
 }  // namespace planetree::tools

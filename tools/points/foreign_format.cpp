@@ -1,6 +1,7 @@
 #include "tools/points/foreign_format.h"
 
 #include <algorithm>
+#include <string>
 
 #include "octree/builder/mesh/stream/mesh_text.h"
 #include "tools/points/sample_lines.h"
@@ -11,7 +12,7 @@ namespace {
 
 using namespace std::string_view_literals;
 
-constexpr const char* kConvert = "save its points as CSV, PLY or .f64";
+constexpr const char* kConvert = "";  // to a format that is read
 constexpr const char* kUnpack = "unpack it first";
 constexpr const char* kRecode = "save it as UTF-8";
 
@@ -19,7 +20,7 @@ constexpr const char* kRecode = "save it as UTF-8";
 struct Signature {
   std::string_view bytes;
   const char* name;
-  const char* remedy;
+  const char* remedy;  // kConvert: another format
 };
 
 constexpr Signature kSignatures[] = {
@@ -39,7 +40,7 @@ constexpr Signature kSignatures[] = {
     {"\x93NUMPY"sv, "a NumPy array", "save it by numpy.savetxt, or by tofile as float64 to .f64"},
     {"\x89HDF"sv, "an HDF5 file", kConvert},
     {"PAR1"sv, "a Parquet table", kConvert},
-    {"\x89PTREE"sv, "a .ptree file", "give the points behind it"},
+    {"\x89PTREE"sv, "a .ptree file", "give the list behind it"},
     {"\x89PNG"sv, "a PNG picture", kConvert},
     {"%PDF"sv, "a PDF document", kConvert},
     {"PK\3\4"sv, "a ZIP archive or a spreadsheet", "unpack it, or save the sheet as CSV"},
@@ -57,9 +58,12 @@ constexpr Signature kSignatures[] = {
     {"\xfe\xff"sv, "UTF-16 text", kRecode},
 };
 
-Error refusal(const char* name, const char* remedy) {
+Error refusal(const RowShape& shape, const char* name, const char* remedy) {
+  std::string convert = std::string("save its ") + shape.noun + "s as CSV";
+  convert += shape.kind == RowKind::kPoint ? ", PLY or .f64" : " or .f64";
   return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
-                    "this is %s, not a list of points; %s", name, remedy);
+                    "this is %s, not a list of %ss; %s", name, shape.noun,
+                    *remedy == 0 ? convert.c_str() : remedy);
 }
 
 bool contains_word(const std::vector<SampleLines::Line>& lines, std::string_view wanted) {
@@ -129,21 +133,22 @@ bool is_utf16(std::string_view front) {
 }  // namespace
 
 std::optional<Error> find_foreign_format(std::string_view front,
-                                         std::optional<std::uint64_t> size_bytes) {
+                                         std::optional<std::uint64_t> size_bytes,
+                                         const RowShape& shape) {
   if (size_bytes && has_binary_stl_size(front, *size_bytes))
-    return refusal("a binary STL mesh", kConvert);
+    return refusal(shape, "a binary STL mesh", kConvert);
   const auto text = front.substr(octree::text_begin(front).offset);
   for (const Signature& signature : kSignatures)
     if (front.starts_with(signature.bytes) || text.starts_with(signature.bytes))
-      return refusal(signature.name, signature.remedy);
-  if (is_utf16(front)) return refusal("UTF-16 text", kRecode);
+      return refusal(shape, signature.name, signature.remedy);
+  if (is_utf16(front)) return refusal(shape, "UTF-16 text", kRecode);
   const auto binary = std::find_if(front.begin(), front.end(), is_binary);
   if (binary != front.end())
     return make_error(
         ErrorCode::kBadInput, Error::kNowhere, static_cast<std::uint64_t>(binary - front.begin()),
         "this is binary data, not text; give CSV, PLY, or raw float64 in a file named "
         ".f64");
-  if (const char* const name = text_format(front)) return refusal(name, kConvert);
+  if (const char* const name = text_format(front)) return refusal(shape, name, kConvert);
   return std::nullopt;
 }
 

@@ -10,7 +10,7 @@
 #include "octree/builder/mesh/stream/mesh_file.h"
 #include "octree/builder/mesh/stream/mesh_lines.h"
 #include "octree/builder/mesh/stream/mesh_window.h"
-#include "tools/points/point_reader.h"
+#include "tools/points/row_reader.h"
 
 namespace planetree::tools {
 

@@ -13,15 +13,15 @@ namespace {
 constexpr std::size_t kMaxRows = 200;
 constexpr std::size_t kMaxCountDigits = 18;
 
-/// How many lines have three numbers and, where that says nothing, three fields.
+/// How many lines have so many numbers and, where that says nothing, so many fields.
 std::pair<std::size_t, std::size_t> rows_of(const std::vector<SampleLines::Line>& lines,
-                                            Separator separator) {
+                                            Separator separator, std::size_t wanted) {
   std::pair<std::size_t, std::size_t> rows;
   for (const SampleLines::Line& line : lines) {
     if (is_comment(line.text)) continue;
     const FieldCounts counts = count_fields(line.text, separator);
-    rows.first += counts.numbers >= 3 ? 1 : 0;
-    rows.second += counts.fields >= 3 ? 1 : 0;
+    rows.first += counts.numbers >= wanted ? 1 : 0;
+    rows.second += counts.fields >= wanted ? 1 : 0;
   }
   return rows;
 }
@@ -37,13 +37,17 @@ SampleLines::SampleLines(std::string_view front) {
   }
 }
 
-Separator SampleLines::separator() const {
+Separator SampleLines::separator(std::size_t numbers) const {
+  constexpr std::size_t kMinNumbers = 3;
   Separator best = Separator::kComma;
   std::pair<std::size_t, std::size_t> most;
-  for (const Separator separator : kSeparators) {
-    const auto rows = rows_of(lines_, separator);
-    if (rows > most) best = separator;
-    most = std::max(most, rows);
+  // Rows that are too short are told as such if their separator is found by fewer numbers.
+  for (; numbers >= kMinNumbers && most == decltype(most)(); --numbers) {
+    for (const Separator separator : kSeparators) {
+      const auto rows = rows_of(lines_, separator, numbers);
+      if (rows > most) best = separator;
+      most = std::max(most, rows);
+    }
   }
   return best;
 }

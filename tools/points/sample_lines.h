@@ -20,9 +20,9 @@ class SampleLines {
   explicit SampleLines(std::string_view front);
 
   [[nodiscard]] const std::vector<Line>& lines() const { return lines_; }
-  /// The separator by which most lines have three numbers. Among equals, one that leaves fields
+  /// The separator by which most lines have so many numbers. Among equals, one that leaves fields
   /// empty rather than one that skips them.
-  [[nodiscard]] Separator separator() const;
+  [[nodiscard]] Separator separator(std::size_t numbers) const;
 
  private:
   std::vector<Line> lines_;

@@ -27,7 +27,17 @@ std::vector<std::string_view> names_in(std::string_view line, Separator separato
   return names;
 }
 
-TextHeader read_as(std::string_view line, Separator separator, const ColumnChoice& choice) {
+NamedColumns find_columns(const RowShape& shape, const std::vector<std::string_view>& names,
+                          ColumnList& columns) {
+  if (shape.kind != RowKind::kPoint) return find_named(shape, names, columns);
+  AxisColumns axes{};
+  const NamedColumns found = find_axes(names, axes);
+  columns.assign(axes.begin(), axes.end());
+  return found;
+}
+
+TextHeader read_as(std::string_view line, Separator separator, const RowShape& shape,
+                   const ColumnChoice& choice) {
   // "X [m]" is one name also where blanks separate.
   const std::string without_units = without_brackets(line);
   const bool has_units = separator == Separator::kBlank && !trimmed(without_units).empty();
@@ -35,8 +45,8 @@ TextHeader read_as(std::string_view line, Separator separator, const ColumnChoic
   TextHeader header;
   header.fields = names.size();
   header.separator = separator;
-  header.axes = choice.empty() ? find_axes(names, header.columns)
-                               : find_chosen(choice, names, header.columns);
+  header.found = choice.empty() ? find_columns(shape, names, header.columns)
+                                : find_chosen(choice, names, header.columns);
   return header;
 }
 
@@ -47,12 +57,13 @@ bool is_axis(std::string_view name) {
 
 }  // namespace
 
-TextHeader read_header(std::string_view line, Separator separator, const ColumnChoice& choice) {
-  const TextHeader header = read_as(line, separator, choice);
-  if (header.axes != NamedAxes::kNone) return header;
+TextHeader read_header(std::string_view line, Separator separator, const RowShape& shape,
+                       const ColumnChoice& choice) {
+  const TextHeader header = read_as(line, separator, shape, choice);
+  if (header.found != NamedColumns::kNone) return header;
   for (const Separator other : kSeparators) {
-    const TextHeader found = read_as(line, other, choice);
-    if (found.axes != NamedAxes::kNone) return found;
+    const TextHeader found = read_as(line, other, shape, choice);
+    if (found.found != NamedColumns::kNone) return found;
   }
   return header;
 }
@@ -68,14 +79,15 @@ std::string shown_names(std::string_view line, Separator separator) {
   return shown;
 }
 
-bool lists_other_columns(std::string_view comment, Separator separator, std::size_t fields) {
+bool lists_other_columns(std::string_view comment, Separator separator, std::size_t required,
+                         std::size_t fields) {
   const auto names = names_in(comment, separator);
   const auto is_value = [](std::string_view name) {
     double value = 0;
     return parse_number(name, DecimalMark::kPoint, value);
   };
   if (names.size() != fields || std::any_of(names.begin(), names.end(), is_value)) return false;
-  return fields > 3 || std::any_of(names.begin(), names.end(), is_axis);
+  return fields > required || std::any_of(names.begin(), names.end(), is_axis);
 }
 
 }  // namespace planetree::tools

@@ -11,19 +11,19 @@
 
 namespace planetree::tools {
 
-/// How a text file of points is written. It is decided once, from the first lines.
+/// How a text file of points, rays or sweeps is written. It is decided once, from the first lines.
 struct TextLayout {
   static constexpr std::uint64_t kNoRow = ~std::uint64_t{0};
 
   Separator separator = Separator::kComma;
   DecimalMark decimal = DecimalMark::kPoint;
-  AxisColumns columns = {0, 1, 2};
-  /// Number of the line with the first point, from 1. What precedes it is a header, a title, a
+  ColumnList columns;
+  /// Number of the line with the first row, from 1. What precedes it is a header, a title, a
   /// comment or a count.
   std::uint64_t first_row = kNoRow;
   /// The number of fields that a row has at least, if that is known.
   std::size_t min_fields = 0;
-  /// The number of points that the file declares, in this line.
+  /// The number of rows that the file declares, in this line.
   std::optional<std::uint64_t> declared_count;
   std::uint64_t count_line = 0;
   /// The points are the vertices of an OBJ file: lines that begin with v.
@@ -40,8 +40,9 @@ struct TextLayout {
 ///
 /// front     without a line that is cut off
 /// choice    the columns as typed, if they are
-/// errors    kBadInput: a header without x, y and z or without the chosen columns, or numbers that
-///           may be read in two ways
-Result<TextLayout> find_text_layout(std::string_view front, const ColumnChoice& choice);
+/// errors    kBadInput: a header without the required names or without the chosen columns, or
+///           numbers that may be read in two ways
+Result<TextLayout> find_text_layout(std::string_view front, const RowShape& shape,
+                                    const ColumnChoice& choice);
 
 }  // namespace planetree::tools

@@ -6,10 +6,10 @@
 
 #include "query/probe_state.h"
 #include "query/serve/page_accessor.h"
+#include "tools/answers/answer_words.h"
 #include "tools/check/model_reader.h"
 #include "tools/cli/coordinate_text.h"
 #include "tools/cli/file_text.h"
-#include "tools/points/answer_words.h"
 
 namespace planetree::tools {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <iterator>
 
-#include "tools/points/answer_words.h"
+#include "tools/answers/answer_words.h"
 
 namespace planetree::tools {
 

@@ -9,11 +9,11 @@ using Names = std::vector<std::string_view>;
 
 void expect_found(const Names& names, const AxisColumns& expected) {
   AxisColumns columns = {99, 99, 99};
-  EXPECT_EQ(find_axes(names, columns), NamedAxes::kOnce) << names[expected[0]];
+  EXPECT_EQ(find_axes(names, columns), NamedColumns::kOnce) << names[expected[0]];
   EXPECT_EQ(columns, expected) << names[expected[0]];
 }
 
-NamedAxes axes_of(const Names& names) {
+NamedColumns axes_of(const Names& names) {
   AxisColumns columns;
   return find_axes(names, columns);
 }
@@ -48,25 +48,25 @@ TEST(ColumnNames, ChooseThePositionAmongOtherVectors) {
 }
 
 TEST(ColumnNames, FindNothingElse) {
-  EXPECT_EQ(axes_of({"a", "b", "c"}), NamedAxes::kNone);
-  EXPECT_EQ(axes_of({"x", "y"}), NamedAxes::kNone);
-  EXPECT_EQ(axes_of({"nx", "ny", "nz"}), NamedAxes::kNone);
-  EXPECT_EQ(axes_of({"normal_x", "normal_y", "normal_z"}), NamedAxes::kNone);
-  EXPECT_EQ(axes_of({"0", "1", "2"}), NamedAxes::kNone);
-  EXPECT_EQ(axes_of({"pos_x", "pos_y", "point_z"}), NamedAxes::kNone);
-  EXPECT_EQ(axes_of({"X/Northing", "Y/Easting", "Z/Height"}), NamedAxes::kNone);
-  EXPECT_EQ(axes_of({"x", "y", "time"}), NamedAxes::kNone);
-  EXPECT_EQ(axes_of({"lon", "lat", "height"}), NamedAxes::kNone);
-  EXPECT_EQ(axes_of({}), NamedAxes::kNone);
+  EXPECT_EQ(axes_of({"a", "b", "c"}), NamedColumns::kNone);
+  EXPECT_EQ(axes_of({"x", "y"}), NamedColumns::kNone);
+  EXPECT_EQ(axes_of({"nx", "ny", "nz"}), NamedColumns::kNone);
+  EXPECT_EQ(axes_of({"normal_x", "normal_y", "normal_z"}), NamedColumns::kNone);
+  EXPECT_EQ(axes_of({"0", "1", "2"}), NamedColumns::kNone);
+  EXPECT_EQ(axes_of({"pos_x", "pos_y", "point_z"}), NamedColumns::kNone);
+  EXPECT_EQ(axes_of({"X/Northing", "Y/Easting", "Z/Height"}), NamedColumns::kNone);
+  EXPECT_EQ(axes_of({"x", "y", "time"}), NamedColumns::kNone);
+  EXPECT_EQ(axes_of({"lon", "lat", "height"}), NamedColumns::kNone);
+  EXPECT_EQ(axes_of({}), NamedColumns::kNone);
 }
 
 TEST(ColumnNames, RefuseToChooseBetweenEquals) {
-  EXPECT_EQ(axes_of({"x", "y", "z", "X"}), NamedAxes::kAmbiguous);
-  EXPECT_EQ(axes_of({"x [m]", "y [m]", "z [m]", "x [mm]"}), NamedAxes::kAmbiguous);
+  EXPECT_EQ(axes_of({"x", "y", "z", "X"}), NamedColumns::kAmbiguous);
+  EXPECT_EQ(axes_of({"x [m]", "y [m]", "z [m]", "x [mm]"}), NamedColumns::kAmbiguous);
   EXPECT_EQ(axes_of({"pos_x", "pos_y", "pos_z", "coord_x", "coord_y", "coord_z"}),
-            NamedAxes::kAmbiguous);
-  EXPECT_EQ(axes_of({"east", "north", "height", "altitude"}), NamedAxes::kAmbiguous);
-  EXPECT_EQ(axes_of({"x", "y", "height", "altitude"}), NamedAxes::kAmbiguous);
+            NamedColumns::kAmbiguous);
+  EXPECT_EQ(axes_of({"east", "north", "height", "altitude"}), NamedColumns::kAmbiguous);
+  EXPECT_EQ(axes_of({"x", "y", "height", "altitude"}), NamedColumns::kAmbiguous);
 }
 
 TEST(ColumnNames, TypedColumnsAreThreeDifferentOnes) {

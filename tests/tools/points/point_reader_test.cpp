@@ -1,4 +1,4 @@
-#include "tools/points/point_reader.h"
+#include "tools/points/row_reader.h"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "tests/storage/system/temporary_directory.h"
-#include "tools/points/point_reader.h"
+#include "tools/points/row_reader.h"
 
 /// Shared by the tests of point readers: files of points, and what is read from them.
 namespace planetree::tools {

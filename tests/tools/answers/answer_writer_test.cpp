@@ -1,4 +1,4 @@
-#include "tools/points/answer_writer.h"
+#include "tools/answers/answer_writer.h"
 
 #include <gtest/gtest.h>
 
@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "tests/tools/cli/captured_console.h"
+#include "tools/answers/answer_words.h"
 
 namespace planetree::tools {
 namespace {

@@ -1,4 +1,4 @@
-#include "tools/points/answer_output.h"
+#include "tools/answers/answer_output.h"
 
 #include <span>
 

@@ -3,13 +3,13 @@
 #include <cstdint>
 #include <span>
 
+#include "planetree/contact.h"
 #include "planetree/types.h"
-#include "tools/points/answer_output.h"
-#include "tools/points/answer_words.h"
+#include "tools/answers/answer_output.h"
 
 namespace planetree::tools {
 
-/// One row per point: CSV, one JSON object per line, or raw little-endian float64 values.
+/// One row per answer: CSV, one JSON object per line, or raw little-endian float64 values.
 enum class AnswerFormat : std::uint8_t { kCsv, kJsonLines, kF64 };
 
 /// How answers are written.
@@ -19,19 +19,27 @@ struct AnswerForm {
   bool signed_distance = false;
   /// QueryOptions::parts. What was not requested is left out: an empty column, no key, or NaN.
   std::uint32_t parts = kAllParts;
+  /// Rays have t_min and t_max. In kF64 they always do.
+  bool shows_range = false;
 };
 
-/// Writes answers in one form, one row per point.
+/// Writes answers in one form, one row per answer.
 class AnswerWriter {
  public:
-  AnswerWriter(AnswerOutput& output, const AnswerForm& form) : output_(output), form_(form) {}
+  AnswerWriter(AnswerOutput& output, const AnswerForm& form) : output_(output), form_(form) {
+    form_.shows_range |= form.format == AnswerFormat::kF64;
+  }
 
   /// Writes the header of answers of this type. False and errors as AnswerOutput::write().
   Result<bool> begin(const ClosestPoint&);
   Result<bool> begin(const Containment&);
+  Result<bool> begin(const RayHit&);
+  Result<bool> begin(const FirstContact&);
   /// Writes a row for each answer; the spans have equal lengths. False and errors as in begin().
   Result<bool> write(std::span<const Vec3> queries, std::span<const ClosestPoint> answers);
   Result<bool> write(std::span<const Vec3> queries, std::span<const Containment> answers);
+  Result<bool> write(std::span<const Ray> queries, std::span<const RayHit> answers);
+  Result<bool> write(std::span<const Sweep> queries, std::span<const FirstContact> answers);
 
  private:
   AnswerOutput& output_;

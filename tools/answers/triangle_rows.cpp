@@ -1,4 +1,4 @@
-#include "tools/points/triangle_rows.h"
+#include "tools/answers/triangle_rows.h"
 
 #include <algorithm>
 #include <cmath>

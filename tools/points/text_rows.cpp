@@ -1,4 +1,4 @@
-#include "tools/points/text_points.h"
+#include "tools/points/text_rows.h"
 
 #include <algorithm>
 #include <cinttypes>
@@ -19,38 +19,26 @@ std::string_view whole_lines(std::string_view front, bool is_whole) {
 
 }  // namespace
 
-Result<std::unique_ptr<PointReader>> TextPoints::create(std::string name, InputFile file,
-                                                        std::string_view front, bool is_whole,
-                                                        const ColumnChoice& choice) {
-  const auto layout = find_text_layout(whole_lines(front, is_whole), choice);
+Result<TextLines> TextLines::create(InputFile file, std::string_view front, bool is_whole,
+                                    const RowShape& shape, const ColumnChoice& choice) {
+  const auto layout = find_text_layout(whole_lines(front, is_whole), shape, choice);
   if (!layout) return layout.error();
   if (layout->first_row == TextLayout::kNoRow && !is_whole)
     return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
-                      "its first %zu bytes have no line with a point; give x,y,z, one point a line",
-                      front.size());
-  return std::unique_ptr<PointReader>(new TextPoints(std::move(name), std::move(file), *layout));
+                      "its first %zu bytes have no line with a %s; give %s, one %s a line",
+                      front.size(), shape.noun, shape.joined_names().c_str(), shape.noun);
+  return TextLines(std::move(file), shape, *layout);
 }
 
-TextPoints::TextPoints(std::string name, InputFile file, const TextLayout& layout)
-    : PointReader(std::move(name)), lines_(std::move(file)), layout_(layout) {
-  for (std::size_t axis = 0; axis < 3; ++axis) columns_[axis] = {layout.columns[axis], axis};
+TextLines::TextLines(InputFile file, const RowShape& shape, const TextLayout& layout)
+    : lines_(std::move(file)), shape_(&shape), layout_(layout) {
+  for (std::size_t i = 0; i < layout.columns.size(); ++i)
+    if (layout.columns[i] != kNoColumn) columns_.push_back({layout.columns[i], i});
   std::sort(columns_.begin(), columns_.end(),
             [](const Column& a, const Column& b) { return a.column < b.column; });
 }
 
-Result<std::size_t> TextPoints::read(std::span<Vec3> points) {
-  if (pending_) return *pending_;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto found = next_point(points[i]);
-    if (found && *found) continue;
-    if (!found) pending_ = found.error();
-    if (!found && i == 0) return *pending_;
-    return i;
-  }
-  return points.size();
-}
-
-Result<bool> TextPoints::next_point(Vec3& point) {
+Result<bool> TextLines::next(std::span<double> numbers) {
   for (;;) {
     const auto found = lines_.next();
     if (!found) return found;
@@ -62,15 +50,14 @@ Result<bool> TextPoints::next_point(Vec3& point) {
     if (lines_.number() == 1 && line.starts_with(kByteOrderMark))
       line.remove_prefix(kByteOrderMark.size());
     if (trimmed(line).empty() || is_comment(line) || lines_.number() < layout_.first_row) continue;
-    if (const auto parsed = parse_row(line, point); !parsed) return parsed.error();
+    if (const auto parsed = parse_row(line, numbers); !parsed) return parsed.error();
     ++rows_;
     if (const auto checked = check_count(false); !checked) return checked.error();
     return true;
   }
 }
 
-Result<void> TextPoints::parse_row(std::string_view line, Vec3& point) const {
-  double* const values[] = {&point.x, &point.y, &point.z};
+Result<void> TextLines::parse_row(std::string_view line, std::span<double> numbers) const {
   LineFields fields(line, layout_.separator);
   std::size_t at = 0;
   if (layout_.is_obj) {
@@ -82,8 +69,8 @@ Result<void> TextPoints::parse_row(std::string_view line, Vec3& point) const {
   for (const Column& wanted : columns_) {
     bool found = true;
     for (; found && at <= wanted.column; ++at) found = fields.next();
-    if (!found) return bad_line("it has fewer than three numbers");
-    if (!parse_number(fields.field(), layout_.decimal, *values[wanted.axis]))
+    if (!found) return too_short();
+    if (!parse_number(fields.field(), layout_.decimal, numbers[wanted.number]))
       return bad_line("'" + octree::printable(fields.field()) + "' is not a number");
   }
   for (; at < layout_.min_fields; ++at)
@@ -91,21 +78,26 @@ Result<void> TextPoints::parse_row(std::string_view line, Vec3& point) const {
   return {};
 }
 
-Result<void> TextPoints::check_count(bool ended) const {
+Result<void> TextLines::check_count(bool ended) const {
   const std::uint64_t count = layout_.declared_count.value_or(rows_);
   if (ended ? rows_ == count : rows_ <= count) return {};
   return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
                     "line %" PRIu64 " counts %" PRIu64
-                    " points, but there are %s; correct or omit "
-                    "the count",
-                    layout_.count_line, count, ended ? "fewer" : "more");
+                    " %ss, but there are %s; correct or omit the count",
+                    layout_.count_line, count, shape_->noun, ended ? "fewer" : "more");
 }
 
-Error TextPoints::bad_line(const std::string& cause) const {
-  const bool has_more = count_fields(lines_.line(), layout_.separator).fields > 3;
+Error TextLines::bad_line(const std::string& cause) const {
+  const bool has_more = count_fields(lines_.line(), layout_.separator).fields > shape_->required;
   return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
-                    "line %" PRIu64 ": %s; give x,y,z%s, one point a line", lines_.number(),
-                    cause.c_str(), has_more ? " first, or --columns" : "");
+                    "line %" PRIu64 ": %s; give %s%s, one %s a line", lines_.number(),
+                    cause.c_str(), shape_->joined_names().c_str(),
+                    has_more ? " first, or --columns" : "", shape_->noun);
+}
+
+Error TextLines::too_short() const {
+  constexpr const char* kWords[] = {"three", "four", "five", "six", "seven", "eight"};
+  return bad_line(std::string("it has fewer than ") + kWords[columns_.size() - 3] + " numbers");
 }
 
 }  // namespace planetree::tools

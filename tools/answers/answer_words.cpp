@@ -1,4 +1,4 @@
-#include "tools/points/answer_words.h"
+#include "tools/answers/answer_words.h"
 
 namespace planetree::tools {
 

@@ -1,19 +1,20 @@
-#include "tools/points/point_reader.h"
+#include "tools/points/row_reader.h"
 
 #include <sys/stat.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <type_traits>
 
 #include "octree/builder/mesh/ply_header.h"
 #include "octree/builder/mesh/stream/mesh_file.h"
 #include "tools/cli/input_file.h"
 #include "tools/points/foreign_format.h"
 #include "tools/points/ply_points.h"
-#include "tools/points/raw_points.h"
+#include "tools/points/raw_rows.h"
 #include "tools/points/spooled_file.h"
-#include "tools/points/text_points.h"
+#include "tools/points/text_rows.h"
 
 namespace planetree::tools {
 namespace {
@@ -46,28 +47,57 @@ Result<std::unique_ptr<PointReader>> open_ply(const std::string& path, InputFile
   return PlyPoints::create(points_name(path), *std::move(ply));
 }
 
+Error not_in_ply(const RowShape& shape) {
+  return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
+                    "this is PLY, which has no %ss; give them as CSV or .f64", shape.noun);
+}
+
+template <class Row>
+Result<std::unique_ptr<RowReader<Row>>> open_rows(const std::string& path,
+                                                  std::FILE* standard_input, const RowShape& shape,
+                                                  const ColumnChoice& choice) {
+  using Reader = std::unique_ptr<RowReader<Row>>;
+  auto file = path == "-" ? InputFile::borrow(standard_input) : InputFile::open(path);
+  if (!file) return file.error();
+  if (has_extension(path, ".f64")) {
+    if (!choice.empty()) return no_columns();
+    return Reader(std::make_unique<RawRows<Row>>(path, *std::move(file), shape));
+  }
+  const auto front = file->front(kFrontBytes);
+  if (!front) return front.error();
+  if (octree::is_ply(*front)) {
+    if constexpr (std::is_same_v<Row, Vec3>) {
+      if (!choice.empty()) return no_columns();
+      return open_ply(path, *std::move(file));
+    } else {
+      return not_in_ply(shape);
+    }
+  }
+  const bool is_whole = front->size() < kFrontBytes;
+  const auto size = is_whole ? std::optional<std::uint64_t>(front->size()) : regular_size(path);
+  if (auto error = find_foreign_format(*front, size, shape)) return *error;
+  auto lines = TextLines::create(*std::move(file), *front, is_whole, shape, choice);
+  if (!lines) return lines.error();
+  return Reader(std::make_unique<TextRows<Row>>(points_name(path), *std::move(lines)));
+}
+
 }  // namespace
 
 std::string points_name(const std::string& path) { return path == "-" ? "standard input" : path; }
 
 Result<std::unique_ptr<PointReader>> open_points(const std::string& path, std::FILE* standard_input,
                                                  const ColumnChoice& choice) {
-  auto file = path == "-" ? InputFile::borrow(standard_input) : InputFile::open(path);
-  if (!file) return file.error();
-  if (has_extension(path, ".f64")) {
-    if (!choice.empty()) return no_columns();
-    return std::unique_ptr<PointReader>(std::make_unique<RawPoints>(path, *std::move(file)));
-  }
-  const auto front = file->front(kFrontBytes);
-  if (!front) return front.error();
-  if (octree::is_ply(*front)) {
-    if (!choice.empty()) return no_columns();
-    return open_ply(path, *std::move(file));
-  }
-  const bool is_whole = front->size() < kFrontBytes;
-  const auto size = is_whole ? std::optional<std::uint64_t>(front->size()) : regular_size(path);
-  if (auto error = find_foreign_format(*front, size)) return *error;
-  return TextPoints::create(points_name(path), *std::move(file), *front, is_whole, choice);
+  return open_rows<Vec3>(path, standard_input, kPointShape, choice);
+}
+
+Result<std::unique_ptr<RayReader>> open_rays(const std::string& path, std::FILE* standard_input,
+                                             const ColumnChoice& choice) {
+  return open_rows<Ray>(path, standard_input, kRayShape, choice);
+}
+
+Result<std::unique_ptr<SweepReader>> open_sweeps(const std::string& path, std::FILE* standard_input,
+                                                 const ColumnChoice& choice) {
+  return open_rows<Sweep>(path, standard_input, kSweepShape, choice);
 }
 
 }  // namespace planetree::tools
