@@ -145,6 +145,7 @@ class QueryRun {
       if (wanted && *wanted) wanted = writer.write(rows.queries, rows.answers);
       progress_.add(*count);
     }
+    if (wanted && *wanted) wanted = writer.finish();
     return finish(output, wanted);
   }
 
@@ -198,9 +199,12 @@ Result<void> check_output(const QueryArguments& arguments, const Console& consol
                           "this is an input itself; name another output");
     return {};
   }
-  if (arguments.form.format != AnswerFormat::kF64 || !console.output_is_terminal()) return {};
+  const AnswerFormat format = arguments.form.format;
+  const bool is_raw = format == AnswerFormat::kF64 || format == AnswerFormat::kPly;
+  if (!is_raw || !console.output_is_terminal()) return {};
   return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
-                    "a terminal cannot show raw numbers; use --output, or omit --format f64");
+                    "a terminal cannot show raw numbers; use --output, or omit --format %s",
+                    format == AnswerFormat::kF64 ? "f64" : "ply");
 }
 
 Result<OpenOptions> open_options(const QueryArguments& arguments) {

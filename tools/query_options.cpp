@@ -65,7 +65,8 @@ void add_answers(SubcommandOptions& subcommand, Options& options) {
   QueryArguments& arguments = options.arguments;
   static const std::map<std::string, AnswerFormat> formats = {{"csv", AnswerFormat::kCsv},
                                                               {"jsonl", AnswerFormat::kJsonLines},
-                                                              {"f64", AnswerFormat::kF64}};
+                                                              {"f64", AnswerFormat::kF64},
+                                                              {"ply", AnswerFormat::kPly}};
   AnswerForm& form = arguments.form;
   const auto contains =
       subcommand.flag("--contains", arguments.contains, "Report only the side of each point");
@@ -118,13 +119,17 @@ void add_answers(SubcommandOptions& subcommand, Options& options) {
   options.only_of_points = {contains, nearest, within, is_signed, parts, side, normal};
   subcommand.default_text(
       subcommand.word(
-          "--format", {"csv", "jsonl", "f64"},
+          "--format", {"csv", "jsonl", "f64", "ply"},
           [&form](const std::string& name) { form.format = formats.at(name); },
           "csv: a header and a row for each answer; jsonl: an object for each, with null for "
           "numbers that are not finite; f64: 14 little-endian float64 for each point (x y z "
           "distance lower upper side px py pz nx ny nz triangle; side is -1 inside, 0 on the "
           "surface, 1 outside; NaN means an unknown side or no triangle), with --contains 4 (x y z "
-          "side)"),
+          "side), with --ray 20 and with --sweep 19 (all columns; t_min and t_max too; feature is "
+          "0 "
+          "face, 1 edge, 2 vertex; status is 0 exact, 2 degraded, 3 beyond_max_distance, 4 "
+          "bad_query); ply: the surface points that were found, as a binary PLY of doubles with "
+          "normals and distance or t"),
       "csv");
 }
 
@@ -209,6 +214,9 @@ std::string complaint_of(const QueryArguments& arguments) {
   const std::uint32_t parts = arguments.options.parts;
   const bool has_both =
       (parts & kNormal) != 0 || (parts & (kDistance | kSide)) == (kDistance | kSide);
+  if (arguments.form.format == AnswerFormat::kPly &&
+      (arguments.contains || (parts & (kDistance | kNormal)) == 0))
+    return "--format ply needs surface points; omit --contains, or add distance to --parts";
   if (arguments.trace == "-") return "--trace needs a file; standard output is for the answers";
   return !arguments.form.signed_distance || has_both
              ? std::string()

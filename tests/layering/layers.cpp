@@ -163,7 +163,7 @@ const std::vector<Layer>& layers() {
        {},
        with_system({"CLI", "fmt", "nlohmann", "openssl/evp.h"})},
       {"tools/html", {"tools/cli"}, {}, {"fmt", "nlohmann"}},
-      {"tools/answers", {"tools/cli"}, {}, {"fmt"}},
+      {"tools/answers", {"tools/cli", "storage/system"}, {}, {"fmt"}},
       {"tools/points",
        {"tools/cli", "octree/builder/mesh", "octree/builder/mesh/stream", "storage/system"},
        {},

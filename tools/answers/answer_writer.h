@@ -1,16 +1,19 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "planetree/contact.h"
 #include "planetree/types.h"
 #include "tools/answers/answer_output.h"
+#include "tools/answers/point_cloud.h"
 
 namespace planetree::tools {
 
-/// One row per answer: CSV, one JSON object per line, or raw little-endian float64 values.
-enum class AnswerFormat : std::uint8_t { kCsv, kJsonLines, kF64 };
+/// One row per answer: CSV, one JSON object per line, or raw little-endian float64 values. kPly:
+/// the points of answers, as the vertices of a binary PLY.
+enum class AnswerFormat : std::uint8_t { kCsv, kJsonLines, kF64, kPly };
 
 /// How answers are written.
 struct AnswerForm {
@@ -40,10 +43,18 @@ class AnswerWriter {
   Result<bool> write(std::span<const Vec3> queries, std::span<const Containment> answers);
   Result<bool> write(std::span<const Ray> queries, std::span<const RayHit> answers);
   Result<bool> write(std::span<const Sweep> queries, std::span<const FirstContact> answers);
+  /// Writes what needs all answers. The last call. False and errors as in begin().
+  Result<bool> finish();
 
  private:
+  template <class Query, class Answer>
+  Result<bool> begin_rows();
+  template <class Query, class Answer>
+  Result<bool> write_rows(std::span<const Query> queries, std::span<const Answer> answers);
+
   AnswerOutput& output_;
   AnswerForm form_;
+  std::optional<PointCloud> cloud_;  // for kPly
 };
 
 }  // namespace planetree::tools

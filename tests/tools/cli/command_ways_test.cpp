@@ -112,6 +112,33 @@ TEST_F(WaysCommand, AnswersAsTheLibrary) {
   EXPECT_EQ(run({"query", "tree.ptree", "--ray", "--threads", "2"}, csv).output, csv);
 }
 
+// What was hit lies on the surface.
+TEST_F(WaysCommand, WritesHitsAsPly) {
+  const std::string rays = "0.25,0.25,-2,0,0,4\n5,5,5,0,0,1\n";
+  ASSERT_EQ(
+      run({"query", "solid.ptree", "--ray", "--hits", "9", "--format", "ply", "-o", "hits.ply"},
+          rays)
+          .status,
+      0);
+  const std::string ply = text_of("hits.ply");
+  EXPECT_TRUE(ply.starts_with(
+      "ply\nformat binary_little_endian 1.0\nelement vertex 2\nproperty double x\nproperty double "
+      "y\nproperty double z\nproperty double t\nproperty double nx\n"))
+      << ply;
+  const auto distances = lines_of(run({"query", "solid.ptree", "hits.ply"}).output);
+  ASSERT_EQ(distances.size(), 3u);
+  EXPECT_TRUE(distances[1].starts_with("0.25,0.25,0,0,0,")) << distances[1];
+  EXPECT_TRUE(distances[2].starts_with("0.25,0.25,0.5,0,0,")) << distances[2];
+  const std::string points = run({"query", "solid.ptree", "--format", "ply", "--parts", "distance"},
+                                 "0.25,0.25,-2\nnan,0,0\n")
+                                 .output;
+  EXPECT_NE(points.find("element vertex 1\n"), std::string::npos);
+  EXPECT_NE(points.find("property double distance\nend_header\n"), std::string::npos);
+  EXPECT_EQ(points.size(), points.find("end_header\n") + 11 + 4 * sizeof(double));
+  EXPECT_EQ(run({"query", "solid.ptree", "--format", "ply", "--contains"}, "1,2,3\n").status, 2);
+  EXPECT_EQ(run({"query", "solid.ptree", "--format", "ply", "--parts", "side"}, "").status, 2);
+}
+
 TEST_F(WaysCommand, KeepsToLimits) {
   const std::string ray = "0.25,0.25,-2,0,0,4\n";
   EXPECT_TRUE(rows({"--ray", "--max-distance", "1"}, ray)[1].ends_with(",beyond_max_distance"));
