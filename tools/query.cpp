@@ -121,8 +121,9 @@ class QueryRun {
   }
 
   std::size_t chunk_points() const {
-    const bool has_sets = arguments_.triangles.is_given() || arguments_.hits > 1;
-    return has_sets ? kChunkOfSets : trace_ ? kTracedPoints : kChunkPoints;
+    if (arguments_.hits > 1)
+      return std::clamp<std::size_t>(kChunkPoints / arguments_.hits, 1, kChunkOfSets);
+    return arguments_.triangles.is_given() ? kChunkOfSets : trace_ ? kTracedPoints : kChunkPoints;
   }
 
   // rows_of(queries) returns Rows.
