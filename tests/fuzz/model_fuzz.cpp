@@ -26,6 +26,8 @@ bool is_finite(const Vec3& v) {
 // A forged scale takes points beyond the range of doubles.
 bool is_number(const Vec3& v) { return !std::isnan(v.x) && !std::isnan(v.y) && !std::isnan(v.z); }
 
+bool is_unit(const Vec3& n) { return std::abs(n.x * n.x + n.y * n.y + n.z * n.z - 1) < 1e-9; }
+
 void check(const ClosestPoint& answer, const QueryOptions& options) {
   const bool has_distance = (options.parts & (kDistance | kNormal)) != 0;
   expect(answer.status != Status::kBadQuery);
@@ -33,8 +35,28 @@ void check(const ClosestPoint& answer, const QueryOptions& options) {
   expect(answer.distance >= 0 && is_number(answer.point) && is_finite(answer.barycentric));
   if (answer.status == Status::kExact && has_distance)
     expect(answer.lower <= answer.distance && answer.distance <= answer.upper);
-  const Vec3& n = answer.normal;
-  expect(std::abs(n.x * n.x + n.y * n.y + n.z * n.z - 1) < 1e-9);
+  expect(is_unit(answer.normal));
+}
+
+void check(const RayHit& hit) {
+  expect(!std::isnan(hit.t) && hit.t >= 0 && !std::isnan(hit.t_lower) && !std::isnan(hit.t_upper));
+  expect(hit.status != Status::kBadQuery && hit.t_lower >= 0);
+  expect((hit.triangle != kNoTriangle) == std::isfinite(hit.t));
+  if (hit.triangle == kNoTriangle) return;
+  expect(hit.t_lower <= hit.t && hit.t <= hit.t_upper);
+  expect(is_number(hit.point) && is_finite(hit.barycentric) && is_unit(hit.normal));
+}
+
+void check(const FirstContact& contact) {
+  expect(contact.status != Status::kBadQuery && contact.t >= 0 && contact.t_lower >= 0);
+  expect(contact.t_lower <= contact.t && contact.t <= contact.t_upper);
+  expect(contact.t <= 1 || std::isinf(contact.t));
+  expect(!contact.free || (std::isinf(contact.t_lower) && contact.status == Status::kExact));
+  const ClosestPoint& at = contact.at;
+  expect((at.triangle != kNoTriangle) == std::isfinite(contact.t));
+  if (at.triangle == kNoTriangle) return;
+  expect(at.lower >= 0 && at.lower < at.upper && at.distance >= 0 && is_number(at.point));
+  expect(is_finite(at.barycentric) && is_unit(at.normal));
 }
 
 /// Points in the model's box and around it, and some that depend on nothing.
@@ -61,26 +83,73 @@ std::vector<QueryOptions> all_options() {
   return {exact, rough, instant, side, starved};
 }
 
+/// Calls a query and expects it to visit no more records than the pages hold.
+template <class Query>
+auto bounded(const Model& model, const Query& query) {
+  const std::uint64_t records = model.info().nodes + model.info().blocks;
+  const Stats before = model.stats();
+  const auto answer = query();
+  const Stats after = model.stats();
+  const std::uint64_t lookups =
+      after.page_hits + after.page_misses - before.page_hits - before.page_misses;
+  expect(lookups <= 16 * records + 1000);
+  return answer;
+}
+
+void query_points(const Model& model, Probe& probe, const std::vector<Vec3>& points,
+                  const QueryOptions& options) {
+  for (const Vec3& point : points) {
+    const Containment side = bounded(model, [&] {
+      check(probe.closest_point(point, options), options);
+      return probe.contains(point, options);
+    });
+    expect(side.status != Status::kBadQuery);
+  }
+  std::vector<ClosestPoint> answers(points.size());
+  std::vector<Containment> sides(points.size());
+  probe.closest_points(points, answers, options);
+  probe.contains(points, sides, options);
+  for (const ClosestPoint& answer : answers) check(answer, options);
+}
+
+/// Rays and moving balls from each point to another.
+void query_ways(const Model& model, Probe& probe, const std::vector<Vec3>& points,
+                const QueryOptions& options) {
+  std::vector<Ray> rays;
+  std::vector<Sweep> sweeps;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3 &from = points[i], &to = points[(3 * i + 1) % points.size()];
+    const Vec3 along{to.x - from.x, to.y - from.y, to.z - from.z};
+    if (is_finite(along) && (along.x != 0 || along.y != 0 || along.z != 0))
+      rays.push_back(i % 2 == 0 ? Ray{from, along} : Ray{from, along, 0.25, 1});
+    sweeps.push_back({from, to, i % 3 == 0 ? 0 : 0.05 * static_cast<double>(i)});
+  }
+  std::vector<RayHit> hits(rays.size()), all(5);
+  for (const Ray& ray : rays) {
+    check(bounded(model, [&] { return probe.first_hit(ray, options); }));
+    const Found found = bounded(model, [&] { return probe.all_hits(ray, all, options); });
+    expect(found.count <= all.size());
+    for (std::size_t i = 0; i < found.count; ++i) {
+      check(all[i]);
+      expect(all[i].triangle != kNoTriangle && (i == 0 || all[i - 1].t <= all[i].t));
+    }
+  }
+  for (const Sweep& sweep : sweeps)
+    check(bounded(model, [&] { return probe.first_contact(sweep, options); }));
+  std::vector<FirstContact> contacts(sweeps.size());
+  probe.first_hits(rays, hits, options);
+  probe.first_contacts(sweeps, contacts, options);
+  for (const RayHit& hit : hits) check(hit);
+  for (const FirstContact& contact : contacts) check(contact);
+}
+
 void query(const Model& model) {
   Result<Probe> probe = Probe::create(model);
   if (!probe) return;
   const std::vector<Vec3> points = points_for(model.info());
-  const std::uint64_t records = model.info().nodes + model.info().blocks;
   for (const QueryOptions& options : all_options()) {
-    for (const Vec3& point : points) {
-      const Stats before = model.stats();
-      check(probe->closest_point(point, options), options);
-      expect(probe->contains(point, options).status != Status::kBadQuery);
-      const Stats after = model.stats();
-      const std::uint64_t lookups =
-          after.page_hits + after.page_misses - before.page_hits - before.page_misses;
-      expect(lookups <= 16 * records + 1000);
-    }
-    std::vector<ClosestPoint> answers(points.size());
-    std::vector<Containment> sides(points.size());
-    probe->closest_points(points, answers, options);
-    probe->contains(points, sides, options);
-    for (const ClosestPoint& answer : answers) check(answer, options);
+    query_points(model, *probe, points, options);
+    query_ways(model, *probe, points, options);
   }
 }
 
