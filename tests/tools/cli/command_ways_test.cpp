@@ -59,6 +59,36 @@ TEST_F(WaysCommand, ListsAllHits) {
   EXPECT_EQ(run({"query", "solid.ptree", "--hits", "2"}, ray).status, 2);
 }
 
+// The last row says that hits may lack, and from where on.
+TEST_F(WaysCommand, SaysThatHitsMayLack) {
+  ASSERT_EQ(run({"generate", "ball.ply", "--shape", "sphere", "--triangles", "2K"}).status, 0);
+  ASSERT_EQ(run({"build", "ball.ply", "-o", "ball.ptree", "--quiet"}).status, 0);
+  const auto hits = [](const std::string& work) {
+    const Outcome result = run(
+        {"query", "ball.ptree", "--ray", "--hits", "9", "--format", "jsonl", "--max-work", work},
+        "-200,0.3,0.4,1,0,0\n");
+    std::vector<Json> rows;
+    for (const std::string& line : lines_of(result.output)) rows.push_back(Json::parse(line));
+    return rows;
+  };
+  const std::vector<Json> all = hits("10000");
+  ASSERT_EQ(all.size(), 2u);
+  std::size_t partial = 0;
+  for (int work = 1; work < 30; ++work) {
+    const std::vector<Json> found = hits(std::to_string(work));
+    ASSERT_FALSE(found.empty());
+    if (found == all) continue;
+    EXPECT_EQ(found.back()["status"], "degraded");
+    EXPECT_EQ(found.back()["triangle"], nullptr);
+    EXPECT_LE(found.back()["t_lower"], all[found.size() - 1]["t"]);
+    if (found.size() == 1) continue;
+    ++partial;
+    EXPECT_EQ(found[0], all[0]);
+    EXPECT_EQ(found[1]["t_lower"], all[0]["t_lower"]);
+  }
+  EXPECT_GT(partial, 0u);
+}
+
 TEST_F(WaysCommand, FindsFirstContacts) {
   const auto found =
       rows({"--sweep"}, "0.25,0.25,-2,0.25,0.25,0,0.5\n-1,-1,-1,-1,-1,-2,0.25\n0,0,nan,0,0,1,1\n");
