@@ -9,6 +9,7 @@
 #include "octree/geometry/fp_environment.h"
 #include "octree/geometry/strict_math.h"
 #include "query/answer/closest_point.h"
+#include "query/answer/contact_set.h"
 #include "query/answer/query_context.h"
 #include "query/answer/side.h"
 #include "query/model_state.h"
@@ -166,6 +167,29 @@ Found ProbeState::find_triangles(const TriangleSetQuery& query, std::span<Closes
   return set.found;
 }
 
+Found ProbeState::find_contacts(const Vec3& query, double radius, std::span<ClosestPoint> found,
+                                const QueryOptions& options) noexcept {
+  if (!is_valid(query, options) || !(radius >= 0)) return {};
+  QueryOptions limited = with_defaults(options);
+  PageAccessor accessor(reader_, options.wait, model_.query_terms);
+  begin_trace(PageAccess::Query::kClosestPoint, options.wait, accessor);
+  octree::TraversalStats work;
+  const ContactSet set = query::find_contacts({model_.geometry, accessor.pages(), coherence_, work},
+                                              query, radius, limited, contact_triangles_, found);
+  side_searches_ += coherence_.searched_side;
+  last_parts_ = computed_parts(options.parts | kDistance);
+  last_side_rule_ = options.side_rule;
+  if (!set.is_degraded && !set.nearest_is_incomplete) return set.found;
+  limited.max_distance = std::min(limited.max_distance, radius);
+  if (set.is_degraded) accessor.pages().need_others();
+  if (accessor.missed() && set.is_degraded)
+    request(query, limited, kDistance, octree::ContactTriangles::kMax, set.reach);
+  else if (accessor.missed())
+    request(query, limited, last_parts_);
+  note_degraded(std::numeric_limits<double>::infinity(), accessor.missed());
+  return set.found;
+}
+
 void ProbeState::fetch_triangles(const TriangleSetQuery& query, std::uint64_t count,
                                  const QueryOptions& options,
                                  const std::atomic<bool>& stop) noexcept {
@@ -228,6 +252,12 @@ Found Probe::triangles_within(Vec3 query, double radius, std::span<ClosestPoint>
                               const QueryOptions& options) noexcept {
   const octree::FpEnvironmentGuard host;
   return state_->find_triangles({query, radius, true}, found, options);
+}
+
+Found Probe::contacts(Vec3 query, double radius, std::span<ClosestPoint> found,
+                      const QueryOptions& options) noexcept {
+  const octree::FpEnvironmentGuard host;
+  return state_->find_contacts(query, radius, found, options);
 }
 
 void Probe::motion(Vec3 position, Vec3 velocity) noexcept {

@@ -14,6 +14,7 @@
 #include "planetree/contact.h"
 #include "planetree/types.h"
 #include "query/answer/model_line.h"
+#include "query/answer/contact_set.h"
 #include "query/answer/query_context.h"
 #include "query/answer/triangle_set.h"
 #include "query/serve/batch_order.h"
@@ -65,6 +66,9 @@ class ProbeState {
   Found all_hits(const Ray& ray, std::span<RayHit> hits, const QueryOptions& options) noexcept;
   /// See Probe::first_contact.
   FirstContact first_contact(const Sweep& sweep, const QueryOptions& options) noexcept;
+  /// See Probe::contacts.
+  Found find_contacts(const Vec3& query, double radius, std::span<ClosestPoint> found,
+                      const QueryOptions& options) noexcept;
   /// See Probe::motion.
   void note_motion(const Vec3& position, const Vec3& velocity) noexcept {
     model_.requests(reader_.index())
@@ -138,6 +142,7 @@ class ProbeState {
   std::uint64_t work_spent_ = 0;                 // units of all queries
   std::uint64_t side_searches_ = 0;              // closest-point queries that searched for the side
   Coherence coherence_;
+  octree::ContactTriangles contact_triangles_;  // of one query
 };
 
 inline Containment ProbeState::contains_fast(const Vec3& query,

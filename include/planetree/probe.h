@@ -137,6 +137,37 @@ class PLANETREE_API Probe {
   ///          kBeyondMaxDistance, as for first_hit(). Before t_lower the ball is free in any case.
   ///          A real-time query requests the pages that lacked.
   FirstContact first_contact(const Sweep& sweep, const QueryOptions& options = {}) noexcept;
+  /// Finds the contacts of a ball about the query point with the surface: the local minima of the
+  /// distance from the query point, as many as fit into `found`, the nearest first. A tip in a
+  /// groove has one on each wall; over a plane it has one, however finely the plane is cut into
+  /// triangles.
+  ///
+  /// A contact is a surface point from which the distance grows on the way to any nearer point of
+  /// the surface, by more than `max_error` and the rounding of the distances. Ways lead over
+  /// triangles that share corners, and over gaps no wider than that. So `max_error`, 0 by default,
+  /// removes the contacts that come from noise of that height.
+  ///
+  /// The first contact is the answer of closest_point(). The others have members as described there
+  /// for a triangle that is not the nearest. `feature` and `triangle` name what the contact is on.
+  /// They stay the same from query to query as long as the contact is on the same face, edge or
+  /// vertex. Of the triangles at an edge or vertex it is the one of least index. The positive
+  /// members of `barycentric` tell which of its edges or corners.
+  ///
+  /// The status of a contact is kExact if nothing that lacks can be part of it, and the requested
+  /// parts are proven. A contact of status kDegraded may belong to a nearer one.
+  ///
+  /// query    query point, model units. A coordinate that is NaN or infinite, or so large that it
+  ///          overflows, finds nothing.
+  /// radius   model units, >= 0, may be infinite. Another value finds nothing.
+  /// found    receives the answers, the nearest first.
+  /// options  all have an effect. A value out of range finds nothing.
+  /// return   how many were found. `complete` says that these are all contacts within the radius.
+  ///          If not, more were found than fit, pages or work lacked, or the triangles of the
+  ///          file's region do not suffice; or more than 384 triangles meet the sphere about the
+  ///          query point through the next contact. A real-time query then requests the pages that
+  ///          lack.
+  Found contacts(Vec3 query, double radius, std::span<ClosestPoint> found,
+                 const QueryOptions& options = {}) noexcept;
 
   /// Reports where the device is and how fast it moves. From this a fetch thread predicts four
   /// positions in the next 5 to 200 ms and reads the pages that queries there need. Each call

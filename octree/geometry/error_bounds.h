@@ -232,6 +232,12 @@ inline constexpr double kMinDirectionShare = 0x1p-36;
 /// Error of a nearest point, as a share of its greatest coordinate: five roundings of shares and
 /// sums. Coordinates may be far larger than the model.
 inline constexpr double kNearestPointRounding = 0x1p-51;
+/// Rises of the distance and gaps of the surface that rounding explains, between two triangles of
+/// which one is no contact of its own: in errors of the triangle's distance, for its own value and
+/// that of the way, and as a share of its greatest coordinate. A corner rounded onto an edge errs
+/// by sqrt(3) u, a nearest point by kNearestPointRounding; the sum is doubled and rounded up.
+inline constexpr double kContactErrors = 2;
+inline constexpr double kContactRounding = 0x1p-49;
 /// Error of all sums and bounds of the coherence cache, relative and absolute. It is 2^14 times
 /// kAbsoluteBoundSlack and 2^29 times u.
 inline constexpr double kCoherenceSlack = 0x1p-24;

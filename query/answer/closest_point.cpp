@@ -12,6 +12,7 @@
 #include "octree/nearest/front_side.h"
 #include "octree/nearest/height_field.h"
 #include "query/answer/far_query.h"
+#include "query/answer/fill_in.h"
 #include "query/answer/missing_surface.h"
 #include "query/answer/query_context.h"
 #include "query/answer/sheet_side.h"
@@ -21,18 +22,6 @@ namespace planetree::query {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-void fill_in(const Scale& scale, const octree::NearestAnswer& nearest, ClosestPoint& answer) {
-  answer.distance = scale.out(nearest.distance);
-  answer.lower = std::min(scale.out_below(nearest.lower), std::numeric_limits<double>::max());
-  answer.upper = scale.out_above(nearest.upper);
-  if (!(answer.upper > answer.lower)) answer.upper = std::nextafter(answer.lower, kInfinity);
-  answer.point = scale.out(nearest.point);
-  answer.triangle = nearest.triangle;
-  answer.barycentric = {nearest.barycentric[0], nearest.barycentric[1], nearest.barycentric[2]};
-  answer.feature = nearest.feature;
-  answer.status = nearest.status;
-}
 
 // Runs one closest-point query. Each stage is computed only when a later one needs it.
 class ClosestPointQuery {
@@ -59,7 +48,9 @@ class ClosestPointQuery {
   ClosestPointQuery& operator=(const ClosestPointQuery&) = delete;
 
   // Returns whether a part is not exact because pages were missing or the work was spent.
-  bool run() {
+  //
+  // found  receives the side if it is a part; may be null
+  bool run(SideResult* found) {
     const std::uint32_t parts = computed_parts(options_.parts);
     if (parts == kSide && !by_winding_number()) return find_side_alone();
     octree::NearestAnswer nearest =
@@ -67,6 +58,7 @@ class ClosestPointQuery {
     if ((parts & kDistance) != 0) report_nearest(nearest);
     const bool with_normal = (parts & kNormal) != 0 && answer_.triangle != kNoTriangle;
     const SideResult& side = (parts & kSide) != 0 ? find_side(nearest, with_normal) : side_result_;
+    if (found) *found = side;
     if (with_normal)
       find_normal(nearest, side);
     else if ((parts & kNormal) != 0 && answer_.status != Status::kBeyondMaxDistance)
@@ -343,8 +335,8 @@ class ClosestPointQuery {
 }  // namespace
 
 bool closest_point(const QueryContext& context, const Vec3& query, const QueryOptions& options,
-                   ClosestPoint& answer) noexcept {
-  return ClosestPointQuery(context, query, options, answer).run();
+                   ClosestPoint& answer, SideResult* side) noexcept {
+  return ClosestPointQuery(context, query, options, answer).run(side);
 }
 
 }  // namespace planetree::query

@@ -20,8 +20,9 @@ inline ClosestPoint unanswered(Status status) noexcept {
 /// query    model units; is_valid() holds
 /// options  returned by with_defaults()
 /// answer   unanswered(kExact) at the call; receives the answer
+/// side     receives the side if it is a part besides the distance; may be null
 /// return   whether a part is not exact because pages were missing or the work was spent
 bool closest_point(const QueryContext& context, const Vec3& query, const QueryOptions& options,
-                   ClosestPoint& answer) noexcept;
+                   ClosestPoint& answer, SideResult* side = nullptr) noexcept;
 
 }  // namespace planetree::query

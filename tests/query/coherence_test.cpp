@@ -41,7 +41,7 @@ class CoherenceTest : public testing::TestWithParam<std::uint64_t> {
   std::unique_ptr<ModelState> model_;
 };
 INSTANTIATE_TEST_SUITE_P(Budgets, CoherenceTest,
-                         testing::Values(std::uint64_t{600} << 10, std::uint64_t{64} << 20));
+                         testing::Values(std::uint64_t{728} << 10, std::uint64_t{64} << 20));
 
 TEST_P(CoherenceTest, ChangesNoBitOfAnExactAnswer) {
   const auto kept = probe(), fresh = probe();

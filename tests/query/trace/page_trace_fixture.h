@@ -40,7 +40,12 @@ class PageTraceTest : public testing::Test {
   }
   // The budget of the fewest frames, or of so many more.
   Model open_small(std::uint64_t more_frames = 0) {
-    return open(kCapacity, min_budget_ + 3 * 8 * std::uint64_t{kCapacity} + more_frames * 4096);
+    OpenOptions options;
+    options.max_probes = 2;
+    options.page_trace_capacity = kCapacity;
+    const auto least = ModelState::min_budget_bytes(sample_.path(), options);
+    EXPECT_TRUE(least);
+    return open(kCapacity, *least + more_frames * 4096);
   }
 
   FetchWorker worker_of(const Model& model) const {
@@ -83,7 +88,6 @@ class PageTraceTest : public testing::Test {
     return all;
   }
   SampleModel sample_;
-  const std::uint64_t min_budget_ = sample_.min_budget(2);
   const std::atomic<bool> never_{false};
   std::uint64_t readings_ = 0;
 };
