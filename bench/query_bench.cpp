@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -35,22 +36,23 @@ struct Arguments {
 
 QueryOptions options_of(const Arguments& arguments, const Box& box) {
   QueryOptions options;
-  options.parts = arguments.part == "all" ? kAllParts : kDistance;
+  options.parts = arguments.part == "distance" ? kDistance : kAllParts;
   options.max_error = arguments.max_error * box.diagonal();
   options.max_work = arguments.max_work;
   options.wait = arguments.never_wait ? Wait::kNever : Wait::kForPages;
   return options;
 }
 
-// What is asked at each point: its nearest point, its side, the first contact on the way to the
-// next point, or the first hit of the ray that begins there.
-enum class Part { kNearest, kSide, kSweep, kRay };
+// What is asked at each point: its nearest point, its side, the contacts of a ball there, the first
+// contact on the way to the next point, or the first hit of the ray that begins there.
+enum class Part { kNearest, kSide, kContacts, kSweep, kRay };
 
 Part part_of(const std::string& name) {
-  return name == "side"    ? Part::kSide
-         : name == "sweep" ? Part::kSweep
-         : name == "ray"   ? Part::kRay
-                           : Part::kNearest;
+  return name == "side"       ? Part::kSide
+         : name == "contacts" ? Part::kContacts
+         : name == "sweep"    ? Part::kSweep
+         : name == "ray"      ? Part::kRay
+                              : Part::kNearest;
 }
 
 struct Place {
@@ -63,6 +65,10 @@ double query(Probe& probe, const Place& place, Part part, const QueryOptions& op
   switch (part) {
     case Part::kSide:
       return probe.contains(point, options).side == Side::kInside ? 1 : 0;
+    case Part::kContacts: {
+      std::array<ClosestPoint, 16> found;
+      return static_cast<double>(probe.contacts(point, radius, found, options).count);
+    }
     case Part::kSweep:
       return probe.first_contact({point, next, radius}, options).free ? 1 : 0;
     case Part::kRay: {
@@ -187,10 +193,12 @@ int main(int argc, char** argv) {
   app.add_option("model", arguments.model, "File that planetree build wrote")->required();
   app.add_option("--workload", arguments.workload, "uniform, near, path, contact, teleport, medial")
       ->capture_default_str();
-  app.add_option("--part", arguments.part,
-                 "distance, side or all of each point; sweep: the first contact of a ball on the "
-                 "way to the next point; ray: the first hit of the ray to there")
-      ->check(CLI::IsMember({"distance", "side", "all", "sweep", "ray"}))
+  app.add_option(
+         "--part", arguments.part,
+         "distance, side or all of each point; contacts: those of a ball there; sweep: the "
+         "first contact of the ball on the way to the next point; ray: the first hit of the "
+         "ray to there")
+      ->check(CLI::IsMember({"distance", "side", "all", "contacts", "sweep", "ray"}))
       ->capture_default_str();
   app.add_option("--queries", arguments.queries, "How many")->capture_default_str();
   app.add_option("--region", arguments.region,

@@ -51,12 +51,14 @@ template <class T>
 }
 
 // The queries of a batch that are sorted together, and their answers.
-template <class Query, class Answer>
+//
+// answer_of  answer_of(probe, query) returns the answer of one of `queries`
+template <class Query, class Answer, class AnswerOf>
 struct Window {
   const BatchOrder& order;
   std::span<const Query> queries;
   std::span<Answer> answers;
-  const QueryOptions& options;
+  const AnswerOf& answer_of;
   const ServingModel& model;
 
   void run(ProbeState& probe, std::size_t first, std::size_t end) const noexcept {
@@ -71,7 +73,7 @@ struct Window {
       }
       const std::size_t at = order.query(i);
       // The memory may have held keys.
-      ::new (static_cast<void*>(&answers[at])) Answer(answer(probe, queries[at]));
+      ::new (static_cast<void*>(&answers[at])) Answer(answer_of(probe, queries[at]));
     }
     probe.set_in_batch(false);
     probe.coherence().nearest.follow(octree::CoherenceCache::Course::kPath);
@@ -80,18 +82,6 @@ struct Window {
                         std::size_t end) noexcept {
     const auto& self = *static_cast<const Window*>(window);
     self.run(*self.model.batch_probes[thread], first, end);
-  }
-
- private:
-  Answer answer(ProbeState& probe, const Query& query) const noexcept {
-    if constexpr (std::is_same_v<Answer, ClosestPoint>)
-      return probe.closest_point(query, options);
-    else if constexpr (std::is_same_v<Answer, Containment>)
-      return probe.contains(query, options);
-    else if constexpr (std::is_same_v<Answer, RayHit>)
-      return probe.first_hit(query, options);
-    else
-      return probe.first_contact(query, options);
   }
 };
 
@@ -131,18 +121,17 @@ std::span<std::uint64_t> keys_for(BatchBuffers& storage, std::span<Answer> answe
 }
 
 // Runs all queries, in an order that switches pages seldom: the caller's, if it does.
-template <class Query, class Answer>
+template <class Query, class Answer, class AnswerOf>
 void query_in_order(ProbeState& probe, std::span<const Query> queries, std::span<Answer> answers,
-                    const QueryOptions& options) noexcept {
+                    Wait wait, const AnswerOf& answer_of) noexcept {
   assert(queries.size() == answers.size());
+  using Pieces = Window<Query, Answer, AnswerOf>;
   const auto run = [&](const BatchOrder& order, std::size_t count) {
-    const Window<Query, Answer> window{order, queries.first(count), answers.first(count), options,
-                                       probe.model()};
+    const Pieces window{order, queries.first(count), answers.first(count), answer_of,
+                        probe.model()};
     // BatchThreads take locks and wait for each other. Real-time queries must not.
-    BatchThreads* const threads =
-        options.wait == Wait::kNever ? nullptr : probe.model().batch_threads;
-    if (!threads || !threads->run(&window, count, &Window<Query, Answer>::run_piece))
-      window.run(probe, 0, count);
+    BatchThreads* const threads = wait == Wait::kNever ? nullptr : probe.model().batch_threads;
+    if (!threads || !threads->run(&window, count, &Pieces::run_piece)) window.run(probe, 0, count);
     queries = queries.subspan(count);
     answers = answers.subspan(count);
   };
@@ -160,26 +149,72 @@ void query_in_order(ProbeState& probe, std::span<const Query> queries, std::span
   }
 }
 
+// Runs queries for sets, each with its share of `answers`.
+//
+// find  find(probe, query, room) returns what a query found
+template <class Find>
+void find_in_order(ProbeState& probe, std::span<const Vec3> queries,
+                   std::span<ClosestPoint> answers, std::span<Found> found, Wait wait,
+                   const Find& find) noexcept {
+  if (queries.empty()) return;
+  assert(answers.size() % queries.size() == 0);
+  const std::size_t share = answers.size() / queries.size();
+  query_in_order(probe, queries, found, wait, [&](ProbeState& own, const Vec3& query) noexcept {
+    const auto at = static_cast<std::size_t>(&query - queries.data());
+    return find(own, query, answers.subspan(at * share, share));
+  });
+}
+
 }  // namespace
 
 void closest_points(ProbeState& probe, std::span<const Vec3> queries,
                     std::span<ClosestPoint> answers, const QueryOptions& options) noexcept {
-  query_in_order(probe, queries, answers, options);
+  query_in_order(probe, queries, answers, options.wait,
+                 [&options](ProbeState& own, const Vec3& query) noexcept {
+                   return own.closest_point(query, options);
+                 });
 }
 
 void contains(ProbeState& probe, std::span<const Vec3> queries, std::span<Containment> answers,
               const QueryOptions& options) noexcept {
-  query_in_order(probe, queries, answers, options);
+  query_in_order(probe, queries, answers, options.wait,
+                 [&options](ProbeState& own, const Vec3& query) noexcept {
+                   return own.contains(query, options);
+                 });
+}
+
+void find_triangles(ProbeState& probe, std::span<const Vec3> queries, double radius, bool wants_all,
+                    std::span<ClosestPoint> answers, std::span<Found> found,
+                    const QueryOptions& options) noexcept {
+  find_in_order(
+      probe, queries, answers, found, options.wait,
+      [&](ProbeState& own, const Vec3& query, std::span<ClosestPoint> room) noexcept {
+        return own.find_triangles(TriangleSetQuery{query, radius, wants_all}, room, options);
+      });
+}
+
+void find_contacts(ProbeState& probe, std::span<const Vec3> queries, double radius,
+                   std::span<ClosestPoint> answers, std::span<Found> found,
+                   const QueryOptions& options) noexcept {
+  find_in_order(probe, queries, answers, found, options.wait,
+                [&](ProbeState& own, const Vec3& query, std::span<ClosestPoint> room) noexcept {
+                  return own.find_contacts(query, radius, room, options);
+                });
 }
 
 void first_hits(ProbeState& probe, std::span<const Ray> rays, std::span<RayHit> hits,
                 const QueryOptions& options) noexcept {
-  query_in_order(probe, rays, hits, options);
+  query_in_order(
+      probe, rays, hits, options.wait,
+      [&options](ProbeState& own, const Ray& ray) noexcept { return own.first_hit(ray, options); });
 }
 
 void first_contacts(ProbeState& probe, std::span<const Sweep> sweeps,
                     std::span<FirstContact> contacts, const QueryOptions& options) noexcept {
-  query_in_order(probe, sweeps, contacts, options);
+  query_in_order(probe, sweeps, contacts, options.wait,
+                 [&options](ProbeState& own, const Sweep& sweep) noexcept {
+                   return own.first_contact(sweep, options);
+                 });
 }
 
 }  // namespace planetree::query

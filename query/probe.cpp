@@ -140,17 +140,36 @@ std::uint32_t ProbeState::fetch_pages(const Vec3& query, const QueryOptions& opt
 Found ProbeState::find_triangles(const TriangleSetQuery& query, std::span<ClosestPoint> found,
                                  const QueryOptions& options) noexcept {
   if (!is_valid(query.centre, options) || !(query.radius >= 0)) return {};
+  return find_set(query.centre, query.radius, found, options,
+                  [&](const QueryContext& context, const QueryOptions& limited) {
+                    return query::find_triangles(context, query, limited, found);
+                  });
+}
+
+Found ProbeState::find_triangles(const Box& box, std::span<ClosestPoint> found,
+                                 const QueryOptions& options) noexcept {
+  const BoxSetQuery query(box);
+  if (!query.is_valid() || !is_valid(query.centre(), options)) return {};
+  return find_set(query.centre(), query.radius(), found, options,
+                  [&](const QueryContext& context, const QueryOptions& limited) {
+                    return query::find_triangles(context, query, limited, found);
+                  });
+}
+
+// find  find(context, options) finds the triangles, all of which are within the radius
+template <class Find>
+Found ProbeState::find_set(const Vec3& centre, double radius, std::span<ClosestPoint> found,
+                           const QueryOptions& options, const Find& find) noexcept {
   QueryOptions limited = with_defaults(options);
   octree::TraversalStats work;
   TriangleSet set;
   {
     PageAccessor accessor(reader_, options.wait, model_.query_terms);
     begin_trace(PageAccess::Query::kClosestPoint, options.wait, accessor);
-    set = query::find_triangles({model_.geometry, accessor.pages(), coherence_, work}, query,
-                                limited, found);
+    set = find(QueryContext{model_.geometry, accessor.pages(), coherence_, work}, limited);
     work_spent_ += work.units;
     if (set.is_degraded) {
-      if (accessor.missed()) request(query.centre, limited, kDistance, found.size(), query.radius);
+      if (accessor.missed()) request(centre, limited, kDistance, found.size(), radius);
       accessor.pages().need_others();
       note_degraded(std::numeric_limits<double>::infinity(), accessor.missed());
     }
@@ -159,7 +178,7 @@ Found ProbeState::find_triangles(const TriangleSetQuery& query, std::span<Closes
   if (limited.max_work != QueryOptions::kNoLimit)
     limited.max_work -=
         static_cast<std::uint32_t>(std::min<std::uint64_t>(work.units, limited.max_work));
-  const Side side = contains(query.centre, limited).side;
+  const Side side = contains(centre, limited).side;
   for (ClosestPoint& answer : found.first(set.found.count)) {
     answer.side = side;
     if (side == Side::kUnknown) answer.status = Status::kDegraded;
@@ -245,13 +264,19 @@ Found Probe::nearest_triangles(Vec3 query, std::span<ClosestPoint> found,
                                const QueryOptions& options) noexcept {
   const octree::FpEnvironmentGuard host;
   constexpr double kAnywhere = std::numeric_limits<double>::infinity();
-  return state_->find_triangles({query, kAnywhere, false}, found, options);
+  return state_->find_triangles(query::TriangleSetQuery{query, kAnywhere, false}, found, options);
 }
 
 Found Probe::triangles_within(Vec3 query, double radius, std::span<ClosestPoint> found,
                               const QueryOptions& options) noexcept {
   const octree::FpEnvironmentGuard host;
-  return state_->find_triangles({query, radius, true}, found, options);
+  return state_->find_triangles(query::TriangleSetQuery{query, radius, true}, found, options);
+}
+
+Found Probe::triangles_within(const Box& box, std::span<ClosestPoint> found,
+                              const QueryOptions& options) noexcept {
+  const octree::FpEnvironmentGuard host;
+  return state_->find_triangles(box, found, options);
 }
 
 Found Probe::contacts(Vec3 query, double radius, std::span<ClosestPoint> found,
@@ -276,6 +301,26 @@ void Probe::closest_points(std::span<const Vec3> queries, std::span<ClosestPoint
                            const QueryOptions& options) noexcept {
   const octree::FpEnvironmentGuard host;
   query::closest_points(*state_, queries, answers, options);
+}
+
+void Probe::nearest_triangles(std::span<const Vec3> queries, std::span<ClosestPoint> answers,
+                              std::span<Found> found, const QueryOptions& options) noexcept {
+  const octree::FpEnvironmentGuard host;
+  constexpr double kAnywhere = std::numeric_limits<double>::infinity();
+  query::find_triangles(*state_, queries, kAnywhere, false, answers, found, options);
+}
+
+void Probe::triangles_within(std::span<const Vec3> queries, double radius,
+                             std::span<ClosestPoint> answers, std::span<Found> found,
+                             const QueryOptions& options) noexcept {
+  const octree::FpEnvironmentGuard host;
+  query::find_triangles(*state_, queries, radius, true, answers, found, options);
+}
+
+void Probe::contacts(std::span<const Vec3> queries, double radius, std::span<ClosestPoint> answers,
+                     std::span<Found> found, const QueryOptions& options) noexcept {
+  const octree::FpEnvironmentGuard host;
+  query::find_contacts(*state_, queries, radius, answers, found, options);
 }
 
 }  // namespace planetree

@@ -13,8 +13,8 @@
 #include "cache/reader.h"
 #include "planetree/contact.h"
 #include "planetree/types.h"
-#include "query/answer/model_line.h"
 #include "query/answer/contact_set.h"
+#include "query/answer/model_line.h"
 #include "query/answer/query_context.h"
 #include "query/answer/triangle_set.h"
 #include "query/serve/batch_order.h"
@@ -66,6 +66,9 @@ class ProbeState {
   Found all_hits(const Ray& ray, std::span<RayHit> hits, const QueryOptions& options) noexcept;
   /// See Probe::first_contact.
   FirstContact first_contact(const Sweep& sweep, const QueryOptions& options) noexcept;
+  /// See Probe::triangles_within of a box.
+  Found find_triangles(const Box& box, std::span<ClosestPoint> found,
+                       const QueryOptions& options) noexcept;
   /// See Probe::contacts.
   Found find_contacts(const Vec3& query, double radius, std::span<ClosestPoint> found,
                       const QueryOptions& options) noexcept;
@@ -125,6 +128,9 @@ class ProbeState {
     trace_->begin_query(kind, wait);
     accessor.set_trace(trace_);
   }
+  template <class Find>
+  Found find_set(const Vec3& centre, double radius, std::span<ClosestPoint> found,
+                 const QueryOptions& options, const Find& find) noexcept;
   void note_degraded(double width, bool missed) noexcept;
   void request(const Vec3& query, const QueryOptions& options, std::uint32_t parts,
                std::uint64_t triangles = 0, double radius = 0) noexcept;
@@ -201,5 +207,16 @@ void first_hits(ProbeState& probe, std::span<const Ray> rays, std::span<RayHit> 
 /// See Probe::first_contacts.
 void first_contacts(ProbeState& probe, std::span<const Sweep> sweeps,
                     std::span<FirstContact> contacts, const QueryOptions& options) noexcept;
+
+/// See the batch of Probe::triangles_within. With `wants_all`
+/// false it is that of Probe::nearest_triangles.
+void find_triangles(ProbeState& probe, std::span<const Vec3> queries, double radius, bool wants_all,
+                    std::span<ClosestPoint> answers, std::span<Found> found,
+                    const QueryOptions& options) noexcept;
+
+/// See the batch of Probe::contacts.
+void find_contacts(ProbeState& probe, std::span<const Vec3> queries, double radius,
+                   std::span<ClosestPoint> answers, std::span<Found> found,
+                   const QueryOptions& options) noexcept;
 
 }  // namespace planetree::query

@@ -129,12 +129,6 @@ constexpr const char* name_of(BuildPhase phase) noexcept {
   return "writing";
 }
 
-/// A closed box with faces across the axes, in model units. It may be flat.
-struct Box {
-  Vec3 lower,  ///< lower corner
-      upper;   ///< upper corner
-};
-
 /// How a build decides which SideRule queries use by default.
 enum class SideChoice : std::uint8_t {
   kAuto,    ///< by BuildReport::openness; a watertight surface is a solid

@@ -137,6 +137,14 @@ class PLANETREE_API Probe {
   ///          kBeyondMaxDistance, as for first_hit(). Before t_lower the ball is free in any case.
   ///          A real-time query requests the pages that lacked.
   FirstContact first_contact(const Sweep& sweep, const QueryOptions& options = {}) noexcept;
+
+  /// Finds the triangles that touch a closed box, without any error; else as triangles_within() of
+  /// the box's centre: each answer is about the distance from the centre.
+  ///
+  /// box  model units; finite, lower <= upper along each axis. Another one finds nothing.
+  Found triangles_within(const Box& box, std::span<ClosestPoint> found,
+                         const QueryOptions& options = {}) noexcept;
+
   /// Finds the contacts of a ball about the query point with the surface: the local minima of the
   /// distance from the query point, as many as fit into `found`, the nearest first. A tip in a
   /// groove has one on each wall; over a plane it has one, however finely the plane is cut into
@@ -211,6 +219,20 @@ class PLANETREE_API Probe {
   /// Answers a batch of first_contact(). The rules of closest_points() apply.
   void first_contacts(std::span<const Sweep> sweeps, std::span<FirstContact> contacts,
                       const QueryOptions& options = {}) noexcept;
+  /// Answer batches of nearest_triangles(), triangles_within() and contacts(). Each query point has
+  /// an equal share of `answers`, in the order of the queries. The rules of closest_points() apply,
+  /// except that `found` is the scratch memory.
+  ///
+  /// answers  room for a whole number of answers of each query point. Of what a query does not
+  ///          find, the memory is left as it is.
+  /// found    found[i] is what queries[i] found; found.size() must equal queries.size().
+  void nearest_triangles(std::span<const Vec3> queries, std::span<ClosestPoint> answers,
+                         std::span<Found> found, const QueryOptions& options = {}) noexcept;
+  void triangles_within(std::span<const Vec3> queries, double radius,
+                        std::span<ClosestPoint> answers, std::span<Found> found,
+                        const QueryOptions& options = {}) noexcept;
+  void contacts(std::span<const Vec3> queries, double radius, std::span<ClosestPoint> answers,
+                std::span<Found> found, const QueryOptions& options = {}) noexcept;
 
  private:
   explicit Probe(std::unique_ptr<query::ProbeState> state) noexcept;

@@ -21,6 +21,12 @@ struct Vec3 {
       z = 0;     ///< third coordinate
 };
 
+/// A closed box with faces across the axes, in model units. It may be flat.
+struct Box {
+  Vec3 lower,  ///< lower corner
+      upper;   ///< upper corner
+};
+
 /// The kind of part of the nearest triangle that the nearest point is on.
 enum class Feature : std::uint8_t {
   kFace,   ///< the interior of the triangle, without edges and corners

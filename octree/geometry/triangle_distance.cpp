@@ -131,6 +131,18 @@ void locate(const Triangle& triangle, const TriangleResult& result,
   nearest.barycentric[second] = std::max(b, kMinBarycentric);
 }
 
+bool may_be_flat(const Triangle& triangle) noexcept {
+  constexpr double kMargin = 2;  // rounding, by far
+  const std::array<Point, 3> corner{triangle[0], triangle[1], triangle[2]};
+  const std::size_t apex = apex_of(corner);
+  const Point u = corner[kFirst[apex]] - corner[apex], v = corner[kSecond[apex]] - corner[apex];
+  const Point normal(u.y() * v.z() - u.z() * v.y(), u.z() * v.x() - u.x() * v.z(),
+                     u.x() * v.y() - u.y() * v.x());
+  const double normal2 = normal.squaredNorm();
+  return !(normal2 > kMargin * kMinFaceSine2 * u.squaredNorm() * v.squaredNorm() &&
+           normal2 > kMargin * kMinFaceNormal2);
+}
+
 bool nearest_on_triangle(const Point& query, const Triangle& triangle, WorkLimit& limit,
                          NearestOnTriangle& nearest) noexcept {
   TriangleRows<kTrianglesAtOnce> rows;

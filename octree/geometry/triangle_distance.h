@@ -108,6 +108,10 @@ NearestOnTriangle nearest_on_triangle(const Point& query, const Triangle& triang
 bool nearest_on_triangle(const Point& query, const Triangle& triangle, WorkLimit& limit,
                          NearestOnTriangle& nearest) noexcept;
 
+/// Returns whether nearest_on_triangle() may evaluate the triangle's face with 113 bits, which
+/// takes WorkUnits::kFlatFace.
+bool may_be_flat(const Triangle& triangle) noexcept;
+
 /// Returns the value of nearest_on_triangle().
 inline TriangleValue triangle_value(const Point& query, const Triangle& triangle) noexcept {
   return nearest_on_triangle(query, triangle).value;

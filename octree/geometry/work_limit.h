@@ -116,6 +116,7 @@ struct WorkUnits {
   static constexpr unsigned kParentSearch = 4;  ///< search of a page for the parent of a record
   static constexpr unsigned kBallBlock =
       4;  ///< distances of a block's triangles from a ball's centre
+  static constexpr unsigned kBoxOverlap = 2;  ///< a triangle against a box, but for exact signs
   static constexpr unsigned kContactTriangles = 2;  ///< triangles sorted and joined, in a unit
   static constexpr unsigned kContactSteps = 32;     ///< steps from one to the next, in a unit
 };

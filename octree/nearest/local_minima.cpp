@@ -47,7 +47,9 @@ LocalMinima::Kind LocalMinima::kind(std::size_t rank, NearestOnTriangle& nearest
   if (has_earlier_at_feature(rank)) return limit_.exceeded() ? Kind::kUnknown : Kind::kNone;
   const Kind kind = search(rank);
   if (kind != Kind::kMinimum) return kind;
-  nearest = nearest_on_triangle(query_, triangles_.ranked(rank).corners);
+  const Triangle& corners = triangles_.ranked(rank).corners;
+  if (!take_distance(corners)) return Kind::kUnknown;
+  nearest = nearest_on_triangle(query_, corners);
   const bool touches = touches_earlier(rank, nearest.point);
   if (limit_.exceeded()) return Kind::kUnknown;
   return touches ? Kind::kNone : Kind::kMinimum;
@@ -139,10 +141,14 @@ bool LocalMinima::touches_earlier(std::size_t rank, const Point& point) {
     const Point gap =
         (least_corner(corners) - point).cwiseMax(point - greatest_corner(corners)).cwiseMax(0.0);
     if (gap.maxCoeff() > tolerance) continue;
-    if (!limit_.take()) return false;
+    if (!take_distance(corners)) return false;
     if (std::sqrt(triangle_value(point, corners).squared) <= tolerance) return true;
   }
   return false;
+}
+
+bool LocalMinima::take_distance(const Triangle& triangle) {
+  return limit_.take(may_be_flat(triangle) ? WorkUnits::kFlatFace : 1);
 }
 
 bool LocalMinima::take_steps(unsigned steps) {

@@ -48,6 +48,7 @@ class LocalMinima {
   bool touches_earlier(std::size_t rank, const Point& point);
   double tolerance_of(const ContactTriangles::Entry& entry) const;
   bool is_within(const Point& a, const Point& b, double distance) const;
+  bool take_distance(const Triangle& triangle);
   bool take_steps(unsigned steps);
 
   const ContactTriangles& triangles_;

@@ -44,8 +44,7 @@ class ContactQuery {
     const bool is_free = nearest_.status != Status::kDegraded && !(nearest_.distance <= radius_);
     if (is_free || nearest_.lower > radius_) return {{0, true}, false, nearest_incomplete_};
     const double wanted = model_.scale.in(radius_);
-    triangles_.begin(
-        octree::BestTriangle::reach_within(wanted + tolerance_, model_.tree.span(point_)));
+    triangles_.begin(certain(wanted + tolerance_));
     unread_ = clearance(model_, point_, false);
     while (find_round(wanted)) {
     }
@@ -94,8 +93,8 @@ class ContactQuery {
       if (entry.distance > wanted) break;
       const Position position(entry.squared, entry.index);
       if (position <= decided_) continue;
-      const double level = minima.level(rank);
-      if (!(level < known)) break;
+      const double level = certain(minima.level(rank));
+      if (!is_proven(rank) && !(level < known)) break;
       if (!decide(minima, rank, level)) return false;
       decided_ = position;
     }
@@ -132,11 +131,20 @@ class ContactQuery {
       contact = nearest_;
     else
       describe(rank, nearest, contact);
-    if (!(level < unread_)) {
+    if (!is_proven(rank) && !(level < unread_)) {
       contact.status = Status::kDegraded;
       is_degraded_ = true;
     }
     return true;
+  }
+
+  // Whether no triangle comes before, as closest_point() has found.
+  bool is_proven(std::size_t rank) const {
+    return nearest_.status == Status::kExact && triangles_.ranked(rank).index == nearest_.triangle;
+  }
+  // A triangle whose distance, as computed or bounded, exceeds the result is beyond `level`.
+  double certain(double level) const {
+    return octree::BestTriangle::reach_within(level, model_.tree.span(point_));
   }
 
   void describe(std::size_t rank, const octree::NearestOnTriangle& on_triangle,
@@ -188,8 +196,7 @@ class ContactQuery {
   void add_unseen_nearest() {
     if (has_seen_nearest_ || nearest_.triangle == kNoTriangle || !(nearest_.distance <= radius_))
       return;
-    nearest_.status = Status::kDegraded;
-    is_degraded_ = true;
+    is_degraded_ |= nearest_.status != Status::kExact || !is_cut_;
     const auto contacts = found_.first(count_);
     const auto at = std::upper_bound(contacts.begin(), contacts.end(), nearest_,
                                      [](const ClosestPoint& left, const ClosestPoint& right) {

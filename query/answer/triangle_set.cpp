@@ -5,11 +5,13 @@
 #include <cmath>
 #include <limits>
 
+#include "octree/geometry/box_overlap.h"
 #include "octree/geometry/strict_math.h"
 #include "octree/geometry/work_limit.h"
 #include "octree/nearest/feature_normal.h"
 #include "octree/nearest/interval_ends.h"
 #include "octree/nearest/near_triangles.h"
+#include "octree/traversal/tree_walk.h"
 #include "query/answer/missing_surface.h"
 
 namespace planetree::query {
@@ -41,8 +43,15 @@ class NearestKept final : public octree::NearTriangleSink {
   }
   void take(const octree::TriangleResult& result, const octree::Triangle& corners,
             std::uint64_t index) noexcept override {
+    take(result.value, corners, index,
+         [&](octree::NearestOnTriangle& nearest) { octree::locate(corners, result, nearest); });
+  }
+  /// locate  locate(nearest) writes the nearest point
+  template <class Locate>
+  void take(const octree::TriangleValue& value, const octree::Triangle& corners,
+            std::uint64_t index, const Locate& locate) {
     ClosestPoint answer;
-    answer.distance = std::sqrt(result.value.squared);
+    answer.distance = std::sqrt(value.squared);
     answer.triangle = index;
     if (answer.distance > radius_) return;
     if (is_full()) {
@@ -51,7 +60,9 @@ class NearestKept final : public octree::NearTriangleSink {
       std::pop_heap(kept_.begin(), kept_.end(), is_before);
       --count_;
     }
-    describe(result, corners, answer);
+    octree::NearestOnTriangle nearest;
+    locate(nearest);
+    describe(nearest, corners, answer);
     kept_[count_++] = answer;
     const auto end = kept_.begin() + static_cast<std::ptrdiff_t>(count_);
     std::push_heap(kept_.begin(), end, is_before);
@@ -69,12 +80,10 @@ class NearestKept final : public octree::NearTriangleSink {
  private:
   bool is_full() const { return count_ == kept_.size(); }
 
-  void describe(const octree::TriangleResult& result, const octree::Triangle& corners,
+  void describe(const octree::NearestOnTriangle& nearest, const octree::Triangle& corners,
                 ClosestPoint& answer) {
-    octree::NearestOnTriangle nearest;
-    octree::locate(corners, result, nearest);
-    answer.lower = octree::lower_end(answer.distance - result.value.error);
-    answer.upper = octree::upper_end(answer.distance + result.value.error);
+    answer.lower = octree::lower_end(answer.distance - nearest.value.error);
+    answer.upper = octree::upper_end(answer.distance + nearest.value.error);
     answer.point = {nearest.point.x(), nearest.point.y(), nearest.point.z()};
     answer.barycentric = {nearest.barycentric[0], nearest.barycentric[1], nearest.barycentric[2]};
     answer.feature = nearest.feature;
@@ -160,6 +169,64 @@ TriangleSet find_triangles(const QueryContext& context, const TriangleSetQuery& 
   }
   const bool is_complete = !is_degraded && !(query.wants_all && kept.is_cut());
   return {{kept.count(), is_complete}, is_degraded};
+}
+
+bool BoxSetQuery::is_valid() const {
+  const auto is_range = [](double lower, double upper) {
+    return std::isfinite(lower) && std::isfinite(upper) && lower <= upper;
+  };
+  return is_range(box_.lower.x, box_.upper.x) && is_range(box_.lower.y, box_.upper.y) &&
+         is_range(box_.lower.z, box_.upper.z);
+}
+
+Vec3 BoxSetQuery::centre() const {
+  const auto middle = [](double lower, double upper) { return lower / 2 + upper / 2; };
+  return {middle(box_.lower.x, box_.upper.x), middle(box_.lower.y, box_.upper.y),
+          middle(box_.lower.z, box_.upper.z)};
+}
+
+double BoxSetQuery::radius() const {
+  const octree::Point lower(box_.lower.x, box_.lower.y, box_.lower.z);
+  const octree::Point upper(box_.upper.x, box_.upper.y, box_.upper.z);
+  // Of the box twice as large: the centre is rounded.
+  return (upper - lower).norm();
+}
+
+TriangleSet find_triangles(const QueryContext& context, const BoxSetQuery& query,
+                           const QueryOptions& options, std::span<ClosestPoint> found) noexcept {
+  const ModelGeometry& model = context.model;
+  const octree::Point point = model.scale.in(query.centre());
+  const octree::Point lower = model.scale.in(query.box().lower);
+  const octree::Point upper = model.scale.in(query.box().upper);
+  if (found.empty() || is_far(point) || is_far(lower) || is_far(upper)) return {};
+  octree::WorkLimit limit(context.work.units, max_units(options));
+  NearestKept kept(found, model.scale.in(options.max_distance), true,
+                   (options.parts & kNormal) != 0, limit);
+  const auto take = [&](const octree::Triangle& corners, std::uint64_t index) {
+    if (!limit.take(octree::WorkUnits::kBoxOverlap) ||
+        !octree::touches_box(corners, lower, upper, limit) ||
+        (octree::may_be_flat(corners) && !limit.take(octree::WorkUnits::kFlatFace)))
+      return;
+    ++context.work.triangles;
+    const octree::NearestOnTriangle nearest = octree::nearest_on_triangle(point, corners);
+    kept.take(nearest.value, corners, index,
+              [&](octree::NearestOnTriangle& own) { own = nearest; });
+  };
+  // The tree's box has all triangles. Beyond it, float would overflow.
+  octree::BoxWalk walk(model.tree, lower.cwiseMax(model.tree.box_lower - octree::Point::Ones()),
+                       upper.cwiseMin(model.tree.box_upper + octree::Point::Ones()), context.pages,
+                       context.work);
+  const bool has_all = walk.run(limit.left(), [&](const octree::BlockView& block, std::uint32_t) {
+    for (unsigned i = 0; i < block.header().triangle_count; ++i)
+      take(block.triangle(i), block.id(i));
+  });
+  const bool is_degraded =
+      !has_all || limit.exceeded() || !model.region.holds(lower) || !model.region.holds(upper);
+  for (ClosestPoint& answer : kept.sorted()) {
+    answer.status = is_degraded ? Status::kDegraded : Status::kExact;
+    scale_out(model.scale, answer);
+  }
+  return {{kept.count(), !is_degraded && !kept.is_cut()}, is_degraded};
 }
 
 void visit_triangles(const QueryContext& context, const TriangleSetQuery& query,

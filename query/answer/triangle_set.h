@@ -16,6 +16,22 @@ struct TriangleSetQuery {
   bool wants_all = false;  ///< all within the radius, and not only as many as fit
 };
 
+/// A box of which the triangles that touch it are wanted.
+class BoxSetQuery {
+ public:
+  explicit BoxSetQuery(const Box& box) : box_(box) {}
+
+  const Box& box() const { return box_; }
+  /// Whether it is finite and not inside out.
+  bool is_valid() const;
+  Vec3 centre() const;  ///< model units
+  /// No point of the box is farther from the centre; model units.
+  double radius() const;
+
+ private:
+  Box box_;
+};
+
 /// The triangles found.
 struct TriangleSet {
   Found found;
@@ -27,6 +43,10 @@ struct TriangleSet {
 ///
 /// options  returned by with_defaults(); is_valid() holds
 TriangleSet find_triangles(const QueryContext& context, const TriangleSetQuery& query,
+                           const QueryOptions& options, std::span<ClosestPoint> found) noexcept;
+
+/// The same for the triangles that touch a box. If it is degraded, so are all answers.
+TriangleSet find_triangles(const QueryContext& context, const BoxSetQuery& query,
                            const QueryOptions& options, std::span<ClosestPoint> found) noexcept;
 
 /// Reads the pages that find_triangles() needs for as many triangles.

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <vector>
 
@@ -83,6 +85,84 @@ TEST(TriangleSets, AreThoseOfAllTriangles) {
       }
     }
   }
+}
+
+using Fraction = boost::multiprecision::cpp_rational;
+using Exact = std::array<Fraction, 3>;
+
+// What is left of a convex polygon on one side of a plane across an axis.
+std::vector<Exact> clipped(const std::vector<Exact>& polygon, std::size_t axis, const Fraction& at,
+                           bool keeps_above) {
+  std::vector<Exact> kept;
+  const auto height = [&](const Exact& corner) {
+    return keeps_above ? Fraction(corner[axis] - at) : Fraction(at - corner[axis]);
+  };
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Exact &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const Fraction above = height(a), other = height(b);
+    if (above >= 0) kept.push_back(a);
+    if ((above < 0 && other > 0) || (above > 0 && other < 0)) {
+      const Fraction share = above / (above - other);
+      Exact cut;
+      for (std::size_t k = 0; k < 3; ++k) cut[k] = a[k] + share * (b[k] - a[k]);
+      kept.push_back(cut);
+    }
+  }
+  return kept;
+}
+
+// Whether a closed triangle touches a closed box, by clipping with fractions.
+bool touches(const Corners& triangle, const Box& box) {
+  std::vector<Exact> polygon;
+  for (const Vec3& corner : triangle) polygon.push_back({corner.x, corner.y, corner.z});
+  const std::array<double, 3> lower{box.lower.x, box.lower.y, box.lower.z};
+  const std::array<double, 3> upper{box.upper.x, box.upper.y, box.upper.z};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    polygon = clipped(polygon, axis, lower[axis], true);
+    polygon = clipped(polygon, axis, upper[axis], false);
+  }
+  return !polygon.empty();
+}
+
+// A box about a point, whose faces lie in corners of the model now and then.
+Box nasty_box(Random& random, std::span<const Corners> triangles) {
+  const Vec3 one = nasty_query(random, triangles, 1);
+  Vec3 other = nasty_query(random, triangles, 1);
+  if (random.one_in(3)) other = one + random.in_some_cube(-30, 0);
+  if (random.one_in(4)) other.z = one.z;
+  return {{std::min(one.x, other.x), std::min(one.y, other.y), std::min(one.z, other.z)},
+          {std::max(one.x, other.x), std::max(one.y, other.y), std::max(one.z, other.z)}};
+}
+
+TEST(TriangleSets, OfBoxesAreThoseThatTouch) {
+  std::size_t some = 0, others = 0;
+  for (const NastyFamily& family : nasty_families()) {
+    SCOPED_TRACE(std::string(family.name));
+    Random random(33);
+    BuiltModel model(family.make(random), {4096});
+    for (int k = 0; k < 25 && !testing::Test::HasFailure(); ++k) {
+      const Box box = nasty_box(random, model.triangles());
+      if (std::fabs(box.lower.x) + std::fabs(box.upper.y) + std::fabs(box.lower.z) > 1e9) continue;
+      std::vector<std::uint64_t> expected;
+      for (std::size_t i = 0; i < model.triangles().size(); ++i)
+        if (touches(model.triangles()[i], box)) expected.push_back(i);
+      std::vector<ClosestPoint> found(model.triangles().size() + 1);
+      const Found set = model.probe().triangles_within(box, found, {.parts = kDistance});
+      EXPECT_TRUE(set.complete);
+      found.resize(set.count);
+      EXPECT_TRUE(std::is_sorted(found.begin(), found.end(), [](const auto& a, const auto& b) {
+        return a.distance < b.distance;
+      }));
+      std::vector<std::uint64_t> indices;
+      for (const ClosestPoint& answer : found) indices.push_back(answer.triangle);
+      std::sort(indices.begin(), indices.end());
+      EXPECT_EQ(indices, expected);
+      some += expected.size();
+      others += model.triangles().size() - expected.size();
+    }
+  }
+  EXPECT_GT(some, 1000u);
+  EXPECT_GT(others, 1000u);
 }
 
 // With limited work, what is marked exact is in its place.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -143,6 +144,24 @@ void query_ways(const Model& model, Probe& probe, const std::vector<Vec3>& point
   for (const FirstContact& contact : contacts) check(contact);
 }
 
+void check(const Found& set, std::span<const ClosestPoint> found, const QueryOptions& options) {
+  expect(set.count <= found.size());
+  for (std::size_t i = 0; i < set.count; ++i) {
+    check(found[i], options);
+    expect(i == 0 || found[i - 1].distance <= found[i].distance);
+  }
+}
+
+// Triangles and contacts about a point.
+void query_sets(Probe& probe, const Vec3& point, const QueryOptions& options) {
+  std::array<ClosestPoint, 20> found;
+  check(probe.nearest_triangles(point, found, options), found, options);
+  for (const double radius : {0.3, 1e9}) {
+    check(probe.triangles_within(point, radius, found, options), found, options);
+    check(probe.contacts(point, radius, found, options), found, options);
+  }
+}
+
 void query(const Model& model) {
   Result<Probe> probe = Probe::create(model);
   if (!probe) return;
@@ -150,6 +169,7 @@ void query(const Model& model) {
   for (const QueryOptions& options : all_options()) {
     query_points(model, *probe, points, options);
     query_ways(model, *probe, points, options);
+    for (const Vec3& point : points) query_sets(*probe, point, options);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstddef>
@@ -98,11 +99,14 @@ void touch_code() noexcept {
 std::uint64_t run_queries(Probe& probe, std::span<const Vec3> points,
                           std::uint64_t queries) noexcept {
   constexpr QueryOptions kNow{.wait = Wait::kNever};
+  constexpr std::uint64_t kPointsForASet = 8;  // a set takes longer
+  std::array<ClosestPoint, 16> found;
   std::uint64_t degraded = 0;
   for (std::uint64_t i = 0; i < queries; ++i) {
     const Vec3& point = points[i % points.size()];
     degraded += probe.closest_point(point, kNow).status == Status::kDegraded;
     probe.contains(point, kNow);
+    if (i % kPointsForASet == 0) probe.contacts(point, 0.3, found, kNow);
     probe.motion(point, {1, 0, 0});
   }
   return degraded;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <tuple>
 #include <vector>
 
@@ -176,6 +177,30 @@ TEST(ContactsOfManyTriangles, AreOneOnAPlane) {
     const Found set = probe.contacts({0.5, 0.5, 0.01}, radius, found);
     EXPECT_EQ(set.count, 1u);
     EXPECT_TRUE(set.complete) << radius;
+  }
+}
+
+// More triangles meet at the tip of a cone than are kept at once. The nearest point is a contact
+// all the same.
+TEST(ContactsOfManyTriangles, BeginWithTheNearestPointAtATip) {
+  constexpr std::size_t kCount = 1000;
+  Soup soup;
+  const auto rim = [](std::size_t i) {
+    const double turn = 2 * std::numbers::pi * static_cast<double>(i % kCount) / kCount;
+    return Vec3{std::cos(turn), std::sin(turn), -1};
+  };
+  for (std::size_t i = 0; i < kCount; ++i)
+    soup.push_back(Corners{Vec3{0, 0, 0}, rim(i), rim(i + 1)});
+  const SampleModel sample(soup);
+  const Model model = sample.open();
+  Probe probe = make_probe(model);
+  std::array<ClosestPoint, 4> found;
+  for (const Vec3& above : {Vec3{0, 0, 0.5}, Vec3{0.01, 0.02, 0.5}, Vec3{0, 0, 0}}) {
+    const Found set = probe.contacts(above, 0.6, found);
+    EXPECT_EQ(set.count, 1u);
+    EXPECT_FALSE(set.complete);
+    EXPECT_EQ(bits_of(found[0]), bits_of(probe.closest_point(above)));
+    EXPECT_EQ(found[0].status, Status::kExact);
   }
 }
 

@@ -89,6 +89,72 @@ TEST_F(TriangleSets, WithinARadiusComeWithoutWaitingToo) {
   }));
 }
 
+TEST_F(TriangleSets, OfABoxAreSortedFromItsCentre) {
+  const Model model = sample_.open();
+  Probe probe = make_probe(model);
+  const Box box{{0.7, -0.2, -0.1}, {1.3, 0.2, 0.1}};
+  found_.resize(2000);
+  const Found set = probe.triangles_within(box, found_);
+  ASSERT_TRUE(set.complete);
+  ASSERT_GT(set.count, 50u);
+  ASSERT_LT(set.count, found_.size());
+  // They are among those that the ball about the box meets, with the same bits.
+  std::vector<ClosestPoint> ball(found_.size());
+  const Found about = probe.triangles_within({1, 0, 0}, 0.4, ball);
+  ASSERT_TRUE(about.complete);
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < set.count; ++i) {
+    while (at < about.count && ball[at].triangle != found_[i].triangle) ++at;
+    ASSERT_LT(at, about.count);
+    EXPECT_EQ(bits_of(ball[at]), bits_of(found_[i]));
+  }
+  const Found few = probe.triangles_within(box, std::span(ball).first(7));
+  EXPECT_EQ(few.count, 7u);
+  EXPECT_FALSE(few.complete);
+  for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(bits_of(ball[i]), bits_of(found_[i]));
+  EXPECT_TRUE(probe.triangles_within(Box{{2, 2, 2}, {3, 3, 3}}, found_).complete);
+  EXPECT_EQ(probe.triangles_within(Box{{1, 0, 0}, {0, 1, 1}}, found_).count, 0u);
+  EXPECT_FALSE(probe.triangles_within(Box{{0, 0, 0}, {kInfinity, 1, 1}}, found_).complete);
+  EXPECT_FALSE(probe.triangles_within(box, found_, {.max_work = 4}).complete);
+}
+
+TEST_F(TriangleSets, OfABoxComeWithoutWaitingOnceThePagesAreThere) {
+  const Model model = sample_.open();
+  Probe probe = make_probe(model);
+  const Box box{{0.7, -0.2, -0.1}, {1.3, 0.2, 0.1}};
+  found_.resize(2000);
+  EXPECT_FALSE(probe.triangles_within(box, found_, {.wait = Wait::kNever}).complete);
+  EXPECT_TRUE(eventually(
+      [&] { return probe.triangles_within(box, found_, {.wait = Wait::kNever}).complete; }));
+}
+
+// Each query has its share of the answers.
+TEST_F(TriangleSets, OfABatchHaveTheBitsOfSingleQueries) {
+  const Model one = sample_.open(), other = sample_.open_for_batches(2);
+  Probe single = make_probe(one), batch = make_probe(other);
+  constexpr std::size_t kShare = 5;
+  constexpr double kRadius = 0.6;
+  const std::vector<Vec3> queries = random_queries(300, -1.5, 1.5);
+  std::vector<ClosestPoint> answers(kShare * queries.size()), expected(kShare);
+  std::vector<Found> sets(queries.size());
+  const auto compare = [&](const auto& find) {
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      const Found set = find(queries[i]);
+      ASSERT_EQ(sets[i].count, set.count);
+      ASSERT_EQ(sets[i].complete, set.complete);
+      for (std::size_t k = 0; k < set.count; ++k)
+        ASSERT_EQ(bits_of(answers[i * kShare + k]), bits_of(expected[k]));
+    }
+  };
+  batch.nearest_triangles(queries, answers, sets);
+  compare([&](const Vec3& query) { return single.nearest_triangles(query, expected); });
+  batch.triangles_within(queries, kRadius, answers, sets);
+  compare([&](const Vec3& query) { return single.triangles_within(query, kRadius, expected); });
+  batch.contacts(queries, kRadius, answers, sets);
+  compare([&](const Vec3& query) { return single.contacts(query, kRadius, expected); });
+  batch.contacts(std::span<const Vec3>(), kRadius, {}, {});
+}
+
 TEST_F(TriangleSets, DoNotAllocate) {
   const Model model = sample_.open();
   Probe probe = make_probe(model);
