@@ -79,6 +79,11 @@ void add_answers(SubcommandOptions& subcommand, Options& options) {
       "Report the triangles within this distance of each point, in model units, at most 100,000 or "
       "what --nearest says. A row without a triangle says that there is none "
       "(beyond_max_distance) or that more may be near (degraded)");
+  const auto contacts = subcommand.length(
+      "--contacts", arguments.triangles.contact_radius, false,
+      "Report the contacts of a ball of this radius about each point, in model units: the local "
+      "minima of the distance, the nearest first, with rows as those of --within. --max-error "
+      "leaves out those that rise by no more than that, as noise makes them");
   const auto is_signed = subcommand.flag(
       "--signed", form.signed_distance,
       "Report the distance as signed_distance: negative inside, NaN where the side is unknown. The "
@@ -114,6 +119,7 @@ void add_answers(SubcommandOptions& subcommand, Options& options) {
   subcommand.exclude(normal, contains);
   for (const auto triangles : {nearest, within})
     for (const auto other : {contains, normal}) subcommand.exclude(triangles, other);
+  for (const auto other : {contains, nearest, within}) subcommand.exclude(contacts, other);
   subcommand.exclude(is_signed, contains);
   subcommand.exclude(parts, contains);
   options.only_of_points = {contains, nearest, within, is_signed, parts, side, normal};

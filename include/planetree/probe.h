@@ -228,9 +228,11 @@ class PLANETREE_API Probe {
   /// found    found[i] is what queries[i] found; found.size() must equal queries.size().
   void nearest_triangles(std::span<const Vec3> queries, std::span<ClosestPoint> answers,
                          std::span<Found> found, const QueryOptions& options = {}) noexcept;
+  /// See the batch of nearest_triangles().
   void triangles_within(std::span<const Vec3> queries, double radius,
                         std::span<ClosestPoint> answers, std::span<Found> found,
                         const QueryOptions& options = {}) noexcept;
+  /// See the batch of nearest_triangles().
   void contacts(std::span<const Vec3> queries, double radius, std::span<ClosestPoint> answers,
                 std::span<Found> found, const QueryOptions& options = {}) noexcept;
 

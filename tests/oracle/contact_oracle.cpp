@@ -43,7 +43,7 @@ Point nearest_on(const Point& query, const std::array<Point, 3>& corner) {
   bool inside = dot(normal, normal) > 0;
   Real best = std::numeric_limits<Real>::infinity();
   Point nearest{};
-  for (int k = 0; k < 3; ++k) {
+  for (std::size_t k = 0; k < 3; ++k) {
     const Point &a = corner[k], &b = corner[(k + 1) % 3];
     inside = inside && dot(cross(b - a, query - a), normal) > 0;
     const Point on_edge = nearest_on_segment(query, a, b);
@@ -78,7 +78,7 @@ ContactOracle::Part ContactOracle::triangle_part(std::size_t triangle) const {
   const Corners& corners = triangles_[triangle];
   const Point query = wide(query_);
   Part part = edge_part(corners[0], corners[1]);
-  for (const int k : {1, 2}) {
+  for (const std::size_t k : {std::size_t{1}, std::size_t{2}}) {
     const Part edge = edge_part(corners[k], corners[(k + 1) % 3]);
     if (edge.distance < part.distance) part = edge;
   }
@@ -93,7 +93,7 @@ ContactOracle::ContactOracle(const Vec3& query, std::span<const Corners> triangl
     parts_.push_back(triangle_part(i));
     edges_.emplace_back();
     vertices_.emplace_back();
-    for (int k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < 3; ++k) {
       const Vec3& corner = triangles[i][k];
       edges_[i][k] = edge_part(corner, triangles[i][(k + 1) % 3]).distance;
       vertices_[i][k] = vertex_part(corner).distance;
@@ -115,7 +115,7 @@ std::vector<std::size_t> ContactOracle::reached(std::size_t from, Real margin) c
   std::vector<std::size_t> found{from};
   for (std::size_t i = 0; i < found.size(); ++i) {
     const Corners& corners = triangles_[found[i]];
-    for (int k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < 3; ++k) {
       const Vec3 &a = corners[k], &b = corners[(k + 1) % 3];
       for (const std::size_t other : at_.at(Key(a.x, a.y, a.z))) {
         const bool has_all = has(triangles_[other], corners[0]) &&

@@ -21,8 +21,8 @@ void TriangleRows::answer(const Vec3& point) {
   Found found;
   for (;;) {
     const auto room = std::span(found_).first(std::min<std::size_t>(found_.size(), most));
-    found = probe_.triangles_within(point, query_.radius, room, options_);
-    if (found.count < room.size() || room.size() == most) break;
+    found = find(point, room);
+    if (found.complete || found.count < room.size() || room.size() == most) break;
     found_.resize(2 * room.size());
   }
   for (const ClosestPoint& answer : std::span(found_).first(found.count)) {
@@ -35,12 +35,17 @@ void TriangleRows::answer(const Vec3& point) {
     add_without_triangle(point, Status::kDegraded);
 }
 
+Found TriangleRows::find(const Vec3& point, std::span<ClosestPoint> room) {
+  return query_.wants_contacts() ? probe_.contacts(point, query_.contact_radius, room, options_)
+                                 : probe_.triangles_within(point, query_.radius, room, options_);
+}
+
 void TriangleRows::add_without_triangle(const Vec3& point, Status status) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   ClosestPoint none;
   none.distance = none.upper = kInfinity;
   if (status == Status::kBeyondMaxDistance)
-    none.lower = std::min(query_.radius, options_.max_distance);
+    none.lower = std::min({query_.radius, query_.contact_radius, options_.max_distance});
   none.status = status;
   points_.push_back(point);
   rows_.push_back(none);

@@ -10,21 +10,25 @@
 
 namespace planetree::tools {
 
-/// Which triangles about each point a command lists.
+/// Which triangles or contacts about each point a command lists.
 struct TriangleRowsQuery {
-  /// Most triangles of a point if only a radius is given.
+  /// Most triangles or contacts of a point if only a radius is given.
   static constexpr std::uint64_t kDefaultNearest = 100000;
   static constexpr std::uint64_t kNotGiven = std::numeric_limits<std::uint64_t>::max();
 
   std::uint64_t nearest = kNotGiven;                        ///< at most so many, at least 1
   double radius = std::numeric_limits<double>::infinity();  ///< model units
+  /// If given: the contacts within this radius in place of the triangles.
+  double contact_radius = std::numeric_limits<double>::infinity();
 
+  bool wants_contacts() const { return contact_radius < std::numeric_limits<double>::infinity(); }
   bool is_given() const {
-    return nearest != kNotGiven || radius < std::numeric_limits<double>::infinity();
+    return nearest != kNotGiven || radius < std::numeric_limits<double>::infinity() ||
+           wants_contacts();
   }
 };
 
-/// Finds the triangles about points, a row for each triangle, the nearest first.
+/// Finds the triangles or contacts about points, a row for each, the nearest first.
 ///
 /// A point has at least one row. One without a triangle says why by its status: none is within the
 /// radius (kBeyondMaxDistance), the point is not finite (kBadQuery), or, after the rows of the
@@ -44,6 +48,7 @@ class TriangleRows {
 
  private:
   void answer(const Vec3& point);
+  Found find(const Vec3& point, std::span<ClosestPoint> room);
   void add_without_triangle(const Vec3& point, Status status);
 
   Probe& probe_;

@@ -163,6 +163,25 @@ TEST_F(QueryCommand, SaysWhyAPointHasNoTriangle) {
   EXPECT_EQ(run({"query", "solid.ptree", "--within", "1", "--contains"}, "0,0,0\n").status, 2);
 }
 
+// Inside, near a corner, each of the three faces has a contact. Outside there is one.
+TEST_F(QueryCommand, ListsTheContactsOfPoints) {
+  const Outcome result = run({"query", "solid.ptree", "--contacts", "0.25", "--parts", "distance"},
+                             "0.1,0.15,0.2\n-2,9,9\n");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const auto lines = lines_of(result.output);
+  ASSERT_EQ(lines.size(), 5u);
+  EXPECT_EQ(lines[1].substr(0, 17), "0.1,0.15,0.2,0.1,");
+  EXPECT_EQ(lines[2].substr(0, 18), "0.1,0.15,0.2,0.15,");
+  EXPECT_EQ(lines[3].substr(0, 17), "0.1,0.15,0.2,0.2,");
+  EXPECT_EQ(lines[4], "-2,9,9,inf,0.25,inf,,0,0,0,,,,,face,beyond_max_distance");
+  // The distance rises by less than 0.1 between them.
+  const std::vector<std::string> merged = lines_of(
+      run({"query", "solid.ptree", "--contacts", "0.25", "--max-error", "0.2"}, "0.1,0.15,0.2\n")
+          .output);
+  EXPECT_EQ(merged.size(), 2u);
+  EXPECT_EQ(run({"query", "solid.ptree", "--contacts", "1", "--within", "1"}, "0,0,0\n").status, 2);
+}
+
 TEST_F(QueryCommand, TakesColumns) {
   const std::string points = "id,a,b,c\n7,1,2,3\n";
   EXPECT_EQ(run({"query", "solid.ptree"}, points).status, 1);
