@@ -51,6 +51,7 @@ RayHit ProbeState::first_hit(const Ray& ray, const QueryOptions& options) noexce
   bool is_degraded = false;
   const RayHit hit = query::first_hit({model_.geometry, accessor.pages(), coherence_, work}, way,
                                       limited, is_degraded);
+  work_spent_ += work.units;
   if (is_degraded) note_missing_way(way, way.range().upper, 0, 1, limited, accessor);
   return hit;
 }
@@ -66,6 +67,7 @@ Found ProbeState::all_hits(const Ray& ray, std::span<RayHit> hits,
   begin_trace(PageAccess::Query::kClosestPoint, options.wait, accessor);
   const LineHits found =
       find_hits({model_.geometry, accessor.pages(), coherence_, work}, way, true, limited, hits);
+  work_spent_ += work.units;
   if (found.is_degraded)
     note_missing_way(way, way.range().upper, 0, hits.size(), limited, accessor);
   return found.found;
@@ -81,6 +83,7 @@ FirstContact ProbeState::first_contact(const Sweep& sweep, const QueryOptions& o
   bool is_degraded = false;
   answer = query::first_contact({model_.geometry, accessor.pages(), coherence_, work}, sweep,
                                 limited, is_degraded);
+  work_spent_ += work.units;
   if (is_degraded)
     note_missing_way(ModelLine(model_.geometry.scale, sweep), 1, sweep.radius, 1, limited,
                      accessor);
