@@ -118,7 +118,7 @@ struct WorkUnits {
       4;  ///< distances of a block's triangles from a ball's centre
   static constexpr unsigned kBoxOverlap = 2;  ///< a triangle against a box, but for exact signs
   static constexpr unsigned kContactTriangles = 2;  ///< triangles sorted and joined, in a unit
-  static constexpr unsigned kContactSteps = 32;     ///< steps from one to the next, in a unit
+  static constexpr unsigned kContactSteps = 16;     ///< steps from one to the next, in a unit
 };
 
 }  // namespace planetree::octree

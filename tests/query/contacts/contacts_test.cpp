@@ -106,7 +106,7 @@ TEST_F(Contacts, OfLittleWorkTellWhatIsProven) {
   Probe probe = make_probe(model);
   std::vector<ClosestPoint> expected(found_.size());
   const QueryOptions unlimited{.parts = kDistance};
-  int complete = 0, degraded = 0;
+  int complete = 0, incomplete = 0, degraded = 0;
   for (const Vec3& query : random_queries(300, -1.2, 1.2)) {
     const double radius = 1.02 * probe.closest_point(query).distance + 0.01;
     const Found all = probe.contacts(query, radius, expected, unlimited);
@@ -114,14 +114,15 @@ TEST_F(Contacts, OfLittleWorkTellWhatIsProven) {
       QueryOptions limited = unlimited;
       limited.max_work = work;
       const Found set = probe.contacts(query, radius, found_, limited);
-      complete += set.complete;
+      (set.complete ? complete : incomplete) += 1;
       ASSERT_TRUE(!set.complete || set.count == all.count);
       ASSERT_TRUE(exact_ones_are_among(std::span(found_).first(set.count),
                                        std::span(expected).first(all.count), degraded));
     }
   }
   EXPECT_GT(complete, 100);
-  EXPECT_GT(degraded, 100);
+  EXPECT_GT(incomplete, 100);
+  EXPECT_GT(degraded, 0);  // what is not decided is left out, so that few are
 }
 
 TEST_F(Contacts, DoNotAllocate) {
