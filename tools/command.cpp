@@ -14,6 +14,7 @@
 #include "storage/file/file_layout.h"
 #include "tools/build.h"
 #include "tools/cli/nearest_word.h"
+#include "tools/compare.h"
 #include "tools/generate.h"
 #include "tools/inspect.h"
 #include "tools/manual/help_text.h"
@@ -45,6 +46,7 @@ CommandLine::CommandLine(Console& console)
   add_generate(app, console, action);
   add_build(app, console, action);
   add_query(app, console, action);
+  add_compare(app, console, action);
   add_inspect(app, console, action);
   add_verify(app, console, action);
   add_touch(app, console, action);

@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "octree/builder/mesh/stream/mesh_text.h"
 #include "tools/cli/layer_option.h"
 #include "tools/cli/parts_option.h"
 #include "tools/cli/policy_option.h"
+#include "tools/cli/side_option.h"
 #include "tools/cli/subcommand_options.h"
 #include "tools/query.h"
 
@@ -43,8 +43,7 @@ void add_files(SubcommandOptions& subcommand, Options& options) {
       [](const std::string& text) { return text.empty() ? "give names or numbers" : ""; },
       [&options](const std::string& text) { options.columns = text; },
       "The columns of x, y and z in a text (or of all numbers of a ray or a sweep, in their "
-      "order), "
-      "by their names in its header or by numbers from 1. "
+      "order), by their names in its header or by numbers from 1. "
       "Without it a header must name x, y and z (X [m], Point_X, pos.x, Points:0 or easting, "
       "northing, height will do), and without a header they are the first three. Commas, "
       "semicolons, tabs or blanks separate columns; lines that begin with # or // are comments; "
@@ -96,15 +95,7 @@ void add_answers(SubcommandOptions& subcommand, Options& options) {
       },
       "The other columns of csv are empty, the other keys of jsonl are left out, the other numbers "
       "of f64 are NaN");
-  static const std::map<std::string, SideRule> rules = {{"solid", SideRule::kSolid},
-                                                        {"surface", SideRule::kSurface}};
-  const auto side = subcommand.default_text(
-      subcommand.word(
-          "--side", {"solid", "surface"},
-          [&arguments](const std::string& name) { arguments.options.side_rule = rules.at(name); },
-          "solid: a point is inside by its winding number; surface: inside means behind the "
-          "nearest face, edge or vertex, as its normal points, for terrains and other open sheets"),
-      "as the file says");
+  const auto side = add_side(subcommand, arguments.options.side_rule);
   static const std::map<std::string, NormalRule> normals = {
       {"outward", NormalRule::kOutward}, {"toward-query", NormalRule::kTowardQuery}};
   const auto normal = subcommand.default_text(

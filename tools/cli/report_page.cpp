@@ -14,11 +14,15 @@ Error refusal(const char* text) {
 
 }  // namespace
 
-SubcommandOptions::Option add_page(SubcommandOptions& subcommand, PageChoice& choice) {
-  const auto html = subcommand.path(
+SubcommandOptions::Option add_page_path(SubcommandOptions& subcommand, PageChoice& choice) {
+  return subcommand.path(
       "--html", "OUT.html", choice.html,
       "Also write the report as one HTML file with plots, which needs no network; - is standard "
       "output, and the report then goes to standard error");
+}
+
+SubcommandOptions::Option add_page(SubcommandOptions& subcommand, PageChoice& choice) {
+  const auto html = add_page_path(subcommand, choice);
   SubcommandOptions::need(subcommand.flag("--force", choice.force, "Replace the page if it exists"),
                           html);
   return html;

@@ -20,6 +20,8 @@ struct PageChoice {
   bool is_standard_output() const { return html == "-"; }
 };
 
+/// Declares the option --html, of a subcommand whose --force is for other files too.
+SubcommandOptions::Option add_page_path(SubcommandOptions& subcommand, PageChoice& choice);
 /// Declares the options --html and --force. Returns the first.
 SubcommandOptions::Option add_page(SubcommandOptions& subcommand, PageChoice& choice);
 

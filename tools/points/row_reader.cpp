@@ -3,7 +3,6 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <optional>
 #include <type_traits>
 
@@ -26,13 +25,6 @@ std::optional<std::uint64_t> regular_size(const std::string& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
   return static_cast<std::uint64_t>(status.st_size);
-}
-
-bool has_extension(const std::string& path, std::string_view extension) {
-  std::string found = std::filesystem::path(path).extension().string();
-  std::transform(found.begin(), found.end(), found.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c | 0x20) : c; });
-  return found == extension;
 }
 
 Error no_columns() {
@@ -59,7 +51,7 @@ Result<std::unique_ptr<RowReader<Row>>> open_rows(const std::string& path,
   using Reader = std::unique_ptr<RowReader<Row>>;
   auto file = path == "-" ? InputFile::borrow(standard_input) : InputFile::open(path);
   if (!file) return file.error();
-  if (has_extension(path, ".f64")) {
+  if (is_raw_rows(path)) {
     if (!choice.empty()) return no_columns();
     return Reader(std::make_unique<RawRows<Row>>(path, *std::move(file), shape));
   }
@@ -82,6 +74,13 @@ Result<std::unique_ptr<RowReader<Row>>> open_rows(const std::string& path,
 }
 
 }  // namespace
+
+bool is_raw_rows(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c | 0x20) : c; });
+  return extension == ".f64";
+}
 
 std::string points_name(const std::string& path) { return path == "-" ? "standard input" : path; }
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
@@ -45,6 +46,9 @@ class RowReader {
 using PointReader = RowReader<Vec3>;
 using RayReader = RowReader<Ray>;
 using SweepReader = RowReader<Sweep>;
+
+/// Whether a file has raw numbers: its extension is .f64, in any case.
+[[nodiscard]] bool is_raw_rows(const std::filesystem::path& path);
 
 /// "standard input" for "-", otherwise the path itself.
 std::string points_name(const std::string& path);
