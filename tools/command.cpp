@@ -19,6 +19,7 @@
 #include "tools/inspect.h"
 #include "tools/manual/help_text.h"
 #include "tools/query.h"
+#include "tools/thickness.h"
 #include "tools/touch.h"
 #include "tools/trade.h"
 #include "tools/tune.h"
@@ -47,6 +48,7 @@ CommandLine::CommandLine(Console& console)
   add_build(app, console, action);
   add_query(app, console, action);
   add_compare(app, console, action);
+  add_thickness(app, console, action);
   add_inspect(app, console, action);
   add_verify(app, console, action);
   add_touch(app, console, action);

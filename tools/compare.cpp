@@ -10,7 +10,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -26,6 +25,7 @@
 #include "tools/points/columns_option.h"
 #include "tools/points/row_reader.h"
 #include "tools/values/coloured_ply.h"
+#include "tools/values/model_lengths.h"
 
 namespace planetree::tools {
 namespace {
@@ -39,14 +39,6 @@ constexpr std::uint64_t kMeshBytes = std::uint64_t{48} << 20, kReaderBytes = kMe
 std::uint64_t model_bytes(std::uint64_t memory_bytes, InputKind kind) {
   const std::uint64_t own = kOwnBytes + (kind == InputKind::kMesh ? kMeshBytes : 0);
   return std::max(memory_bytes / 2, memory_bytes - std::min(memory_bytes, own));
-}
-
-/// A length in the order of the deviations.
-double diagonal_of(const ModelInfo& info) {
-  const double diagonal =
-      std::hypot(info.box_upper.x - info.box_lower.x, info.box_upper.y - info.box_lower.y,
-                 info.box_upper.z - info.box_lower.z);
-  return std::isfinite(diagonal) && diagonal > 0 ? diagonal : 1;
 }
 
 class Compare {
@@ -66,7 +58,7 @@ class Compare {
     if (!model) return console_.fail(arguments_.file.string(), model.error());
     auto probe = Probe::create(*model);
     if (!probe) return console_.fail(arguments_.file.string(), probe.error());
-    const double diagonal = diagonal_of(model->info());
+    const double diagonal = box_diagonal(model->info());
     CompareRecord record{
         .file = arguments_.file.string(),
         .other = points_name(arguments_.other.string()),
@@ -98,15 +90,11 @@ class Compare {
 
   /// The outputs must not be an input, and are opened first, so that nothing is measured in vain.
   int open_outputs() {
-    const std::filesystem::path inputs[] = {arguments_.file, arguments_.other, arguments_.output};
+    const std::filesystem::path inputs[] = {arguments_.file, arguments_.other};
     if (const int status = page_.open(inputs); status != kDone) return status;
     if (arguments_.output.empty()) return kDone;
-    std::error_code none;
-    for (const auto& input : {arguments_.file, arguments_.other})
-      if (input != "-" && std::filesystem::equivalent(input, arguments_.output, none))
-        return console_.fail(arguments_.output.string(),
-                             make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
-                                        "this is an input itself; name another output"));
+    if (const auto checked = check_is_no_input(arguments_.output, inputs); !checked)
+      return console_.fail(arguments_.output.string(), checked.error());
     auto ply =
         ColouredPly::create(arguments_.output, "distance",
                             "deviation in model units, negative inside", arguments_.page.force);

@@ -67,6 +67,15 @@ std::string descriptor_path(int descriptor) { return fmt::format("/proc/self/fd/
 
 }  // namespace
 
+Result<void> check_is_no_input(const fs::path& output, std::span<const fs::path> inputs) {
+  std::error_code none;
+  for (const fs::path& input : inputs)
+    if (output != "-" && !input.empty() && input != "-" && fs::equivalent(input, output, none))
+      return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
+                        "this is an input itself; name another output");
+  return {};
+}
+
 Result<OutputFile> OutputFile::create(const fs::path& path, bool may_replace) {
   OutputFile file;
   file.may_replace_ = may_replace;

@@ -9,6 +9,12 @@
 
 namespace planetree::tools {
 
+/// Refuses an output that is one of the inputs. "-" and empty paths are none.
+///
+/// errors  kBadArgument
+Result<void> check_is_no_input(const std::filesystem::path& output,
+                               std::span<const std::filesystem::path> inputs);
+
 /// A file that gets its name only when it is complete. Bytes go to a file without a name in the
 /// same folder, to which commit() gives the name. If anything fails before, the destination is
 /// unchanged and nothing remains, even if the process is killed. Where the file system has no

@@ -1,6 +1,5 @@
 #include "tools/cli/report_page.h"
 
-#include <system_error>
 #include <utility>
 
 namespace planetree::tools {
@@ -37,11 +36,8 @@ int ReportPage::open(std::span<const fs::path> inputs) {
   if (choice_.html.empty()) return kDone;
   if (choice_.is_standard_output() && console_.output_is_terminal())
     return fail(refusal("a terminal cannot show a page; redirect standard output or name a file"));
-  std::error_code none;
-  for (const fs::path& input : inputs)
-    if (!choice_.is_standard_output() && !input.empty() && input != "-" &&
-        fs::equivalent(input, choice_.html, none))
-      return fail(refusal("this is an input itself; name another output"));
+  if (const auto checked = check_is_no_input(choice_.html, inputs); !checked)
+    return fail(checked.error());
   auto created = OutputFile::create(choice_.html, choice_.force);
   if (!created) return fail(created.error());
   file_.emplace(std::move(*created));

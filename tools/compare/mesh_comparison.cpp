@@ -1,31 +1,13 @@
 #include "tools/compare/mesh_comparison.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdint>
 
 namespace planetree::tools {
-namespace {
-
-/// The area of a triangle in square units. It is cut off where a sum of areas could overflow.
-double area_of(const Vec3& a, const Vec3& b, const Vec3& c, double unit) {
-  const Vec3 ab{(b.x - a.x) / unit, (b.y - a.y) / unit, (b.z - a.z) / unit};
-  const Vec3 ac{(c.x - a.x) / unit, (c.y - a.y) / unit, (c.z - a.z) / unit};
-  const double area =
-      std::hypot(ab.y * ac.z - ab.z * ac.y, ab.z * ac.x - ab.x * ac.z, ab.x * ac.y - ab.y * ac.x) /
-      2;
-  constexpr double kMax = 1e200;
-  return area < kMax ? area : kMax;
-}
-
-}  // namespace
-
 void MeshComparison::weigh(const MeshPiece& piece) {
   weights_.assign(piece.corners.size(), 0);
   for (const auto& triangle : piece.triangles) {
     const auto& [a, b, c] = triangle;
-    const double third = area_of(piece.corners[a], piece.corners[b], piece.corners[c], unit_) / 3;
+    const double third = area_of({piece.corners[a], piece.corners[b], piece.corners[c]}, unit_) / 3;
     for (const std::uint32_t corner : triangle) weights_[corner] += third;
   }
 }

@@ -1,5 +1,6 @@
 #include "tools/mesh/mesh_pieces.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <utility>
@@ -51,8 +52,26 @@ bool SamePosition::operator()(const Vec3& a, const Vec3& b) const {
          std::bit_cast<std::array<std::uint64_t, 3>>(b);
 }
 
+double length_of(const Vec3& vector) {
+  const double greatest = std::max({std::fabs(vector.x), std::fabs(vector.y), std::fabs(vector.z)});
+  if (!(greatest > 0) || std::isinf(greatest)) return greatest;
+  const double x = vector.x / greatest, y = vector.y / greatest, z = vector.z / greatest;
+  return greatest * std::sqrt(x * x + y * y + z * z);
+}
+
 double distance_of(const Vec3& a, const Vec3& b) {
-  return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
+  return length_of({a.x - b.x, a.y - b.y, a.z - b.z});
+}
+
+double area_of(const std::array<Vec3, 3>& corners, double unit) {
+  const auto& [a, b, c] = corners;
+  const Vec3 ab{(b.x - a.x) / unit, (b.y - a.y) / unit, (b.z - a.z) / unit};
+  const Vec3 ac{(c.x - a.x) / unit, (c.y - a.y) / unit, (c.z - a.z) / unit};
+  const double area =
+      length_of({ab.y * ac.z - ab.z * ac.y, ab.z * ac.x - ab.x * ac.z, ab.x * ac.y - ab.y * ac.x}) /
+      2;
+  constexpr double kMax = 1e200;
+  return area < kMax ? area : kMax;
 }
 
 MeshPieceMaker::MeshPieceMaker(double spacing, Take take)

@@ -82,7 +82,12 @@ inline Vec3 middle_of(const Vec3& a, const Vec3& b) {
   return {a.x / 2 + b.x / 2, a.y / 2 + b.y / 2, a.z / 2 + b.z / 2};
 }
 
+/// The length of a vector, by arithmetic and square roots alone, which are the same everywhere.
+double length_of(const Vec3& vector);
 /// The distance of two points.
 double distance_of(const Vec3& a, const Vec3& b);
+/// The area of a triangle, for squares of edge `unit`. It is cut off where a sum of areas could
+/// overflow.
+double area_of(const std::array<Vec3, 3>& corners, double unit);
 
 }  // namespace planetree::tools
