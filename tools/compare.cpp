@@ -157,9 +157,11 @@ class Compare {
                               ply_.get());
     ComparedMesh mesh;
     mesh.spacing = arguments_.spacing.value_or(kSpacingShare * record.diagonal);
-    MeshPieceMaker maker(mesh.spacing,
-                         [&](const MeshPiece& piece) { return comparison.take(piece); });
-    progress_.start("comparing", estimated_triangles(arguments_.other), "triangles");
+    const std::uint64_t triangles = estimated_triangles(arguments_.other);
+    const auto cuts = arguments_.spacing ? MeshPieceMaker::Cuts{mesh.spacing}
+                                         : MeshPieceMaker::modest_cuts(mesh.spacing, triangles);
+    MeshPieceMaker maker(cuts, [&](const MeshPiece& piece) { return comparison.take(piece); });
+    progress_.start("comparing", triangles, "triangles");
     const auto found = read_mesh_pieces(arguments_.other, kReaderBytes, maker,
                                         [this](std::uint64_t count) { progress_.add(count); });
     if (!found) return stop(record.other, found.error());
@@ -263,7 +265,7 @@ void add_measures(SubcommandOptions& subcommand, Options& options) {
       subcommand.length("--spacing", options.spacing, true,
                         "Cut the triangles of a mesh until no edge is longer than this, in model "
                         "units. Deviations are measured at the corners of the parts"),
-      "1/200 of the diagonal of the model's box");
+      "1/200 of the diagonal of the model's box, for at most about 4 million parts");
   subcommand.default_text(
       subcommand.length("--hausdorff-error", options.hausdorff_error, false,
                         "Width of the interval of a mesh's greatest distance, in model units"),

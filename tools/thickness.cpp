@@ -163,14 +163,16 @@ class Thickness {
 
   int measure_model(ThicknessSearch& search, ThicknessRecord& record) {
     int status = kDone;
-    MeshPieceMaker maker(arguments_.spacing.value_or(kSpacingShare * record.diagonal),
-                         [&](const MeshPiece& piece) -> Result<void> {
-                           status = measure_piece(search, piece, record);
-                           if (status == kDone) return {};
-                           // measure_piece() has reported it.
-                           return make_error(ErrorCode::kCancelled, Error::kNowhere,
-                                             Error::kNowhere, "stopped");
-                         });
+    const auto cuts =
+        arguments_.spacing
+            ? MeshPieceMaker::Cuts{*arguments_.spacing}
+            : MeshPieceMaker::modest_cuts(kSpacingShare * record.diagonal, record.model_triangles);
+    MeshPieceMaker maker(cuts, [&](const MeshPiece& piece) -> Result<void> {
+      status = measure_piece(search, piece, record);
+      if (status == kDone) return {};
+      // measure_piece() has reported it.
+      return make_error(ErrorCode::kCancelled, Error::kNowhere, Error::kNowhere, "stopped");
+    });
     progress_.start("measuring", record.model_triangles, "triangles");
     const auto read = read_model_pieces(arguments_.file, maker,
                                         [this](std::uint64_t count) { progress_.add(count); });
@@ -192,7 +194,8 @@ class Thickness {
                            p.z / 3 + q.z / 3 + r.z / 3});
       if (const int status = measure(search, middles); status != kDone) return status;
       for (std::size_t i = 0; i < chunk.size(); ++i) {
-        record.add(walls_[i], area_of(chunk[i], record.diagonal));
+        record.add(walls_[i], std::max(area_of(chunk[i], record.diagonal),
+                                       std::numeric_limits<double>::min()));
         if (!ply_) continue;
         if (const auto added = draw(chunk[i], walls_[i].thickness); !added)
           return console_.fail(arguments_.output.string(), added.error());
@@ -276,7 +279,7 @@ void add_measures(SubcommandOptions& subcommand, Options& options) {
       subcommand.length("--spacing", options.spacing, true,
                         "Without POINTS: cut the model's triangles until no edge is longer than "
                         "this, in model units, and measure at the middle of each part"),
-      "1/200 of the diagonal of the model's box");
+      "1/200 of the diagonal of the model's box, for at most about 4 million parts");
   subcommand.default_text(
       subcommand.count("--every", arguments.every, std::numeric_limits<std::uint32_t>::max(),
                        "Without POINTS: measure at one of so many parts, to save time"),

@@ -31,7 +31,7 @@ Found search(BuiltModel& model, const Soup& mesh, const HausdorffGoal& goal,
              double max_distance = kInfinity, double spacing = kInfinity) {
   HausdorffSearch search(model.probe(), goal, max_distance);
   QueryOptions options{.parts = kDistance, .max_distance = max_distance};
-  MeshPieceMaker maker(spacing, [&](const MeshPiece& piece) {
+  MeshPieceMaker maker({spacing}, [&](const MeshPiece& piece) {
     std::vector<ClosestPoint> answers(piece.corners.size());
     model.probe().closest_points(piece.corners, answers, options);
     return search.add(piece, answers);
@@ -170,7 +170,7 @@ TEST(HausdorffSearch, IsNearZeroForTheModelItself) {
 TEST(HausdorffSearch, HoldsWhenItsSplitsAreSpent) {
   BuiltModel model(posts());
   double width = kInfinity;
-  for (const std::uint64_t splits : {0, 1}) {
+  for (const std::uint64_t splits : {0U, 1U}) {
     const Found found = search(model, square(1, 1, 0), {1e-9, 0, splits});
     EXPECT_LE(found.splits, splits);
     EXPECT_FALSE(found.is_within_error);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -16,7 +17,8 @@ namespace planetree::tools {
 class CompensatedSum {
  public:
   void add(double term);
-  double value() const { return sum_ + rest_; }
+  /// Infinite if it overflows.
+  double value() const { return std::isfinite(sum_) ? sum_ + rest_ : sum_; }
 
  private:
   double sum_ = 0, rest_ = 0;

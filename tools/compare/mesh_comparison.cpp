@@ -1,10 +1,12 @@
 #include "tools/compare/mesh_comparison.h"
 
 #include <cstdint>
+#include <limits>
 
 namespace planetree::tools {
 void MeshComparison::weigh(const MeshPiece& piece) {
-  weights_.assign(piece.corners.size(), 0);
+  // Above 0, so that a mesh without area has statistics too.
+  weights_.assign(piece.corners.size(), std::numeric_limits<double>::min());
   for (const auto& triangle : piece.triangles) {
     const auto& [a, b, c] = triangle;
     const double third = area_of({piece.corners[a], piece.corners[b], piece.corners[c]}, unit_) / 3;

@@ -12,8 +12,8 @@ namespace planetree::tools {
 
 Result<InputKind> input_kind(const std::filesystem::path& path) {
   std::error_code none;
-  // A pipe is read once, from front to back. Only points can be.
-  if (path == "-" || std::filesystem::is_fifo(path, none)) return InputKind::kPoints;
+  // A pipe or a device is read once, from front to back. Only points can be.
+  if (path == "-" || std::filesystem::is_other(path, none)) return InputKind::kPoints;
   const auto file = octree::MeshFile::open(path);
   if (!file) return file.error();
   if (is_raw_rows(path)) return InputKind::kPoints;

@@ -74,8 +74,16 @@ double area_of(const std::array<Vec3, 3>& corners, double unit) {
   return area < kMax ? area : kMax;
 }
 
-MeshPieceMaker::MeshPieceMaker(double spacing, Take take)
-    : spacing_(spacing), take_(std::move(take)) {
+MeshPieceMaker::Cuts MeshPieceMaker::modest_cuts(double spacing, std::uint64_t triangles) {
+  constexpr std::uint64_t kMaxParts = std::uint64_t{1} << 22, kUnknown = std::uint64_t{1} << 16;
+  Cuts cuts{spacing, 0};
+  while (cuts.most < kMaxCuts &&
+         (triangles == 0 ? kUnknown : triangles) <= kMaxParts >> (cuts.most + 1))
+    ++cuts.most;
+  return cuts;
+}
+
+MeshPieceMaker::MeshPieceMaker(const Cuts& cuts, Take take) : cuts_(cuts), take_(std::move(take)) {
   numbers_.reserve(kTriangles);
 }
 
@@ -94,7 +102,7 @@ Result<void> MeshPieceMaker::add(const std::array<Vec3, 3>& corners) {
     const std::size_t longest = edges[0] >= edges[1] && edges[0] >= edges[2] ? 0
                                 : edges[1] >= edges[2]                       ? 1
                                                                              : 2;
-    if (!(edges[longest] > spacing_) || part.cuts == kMaxCuts) {
+    if (!(edges[longest] > cuts_.spacing) || part.cuts == cuts_.most) {
       if (const auto added = add_whole(part.corners); !added) return added;
       continue;
     }

@@ -33,14 +33,22 @@ struct MeshPiece {
 class MeshPieceMaker {
  public:
   static constexpr std::size_t kTriangles = 32768;  ///< most triangles of a piece
-  static constexpr int kMaxCuts = 16;               ///< so many times a triangle is halved at most
+  static constexpr int kMaxCuts = 16;               ///< most times that a triangle is halved
+
+  /// How long the edges of parts may be.
+  struct Cuts {
+    double spacing = std::numeric_limits<double>::infinity();  ///< model units
+    int most = kMaxCuts;  ///< a triangle is not halved more often; at most kMaxCuts
+  };
+  /// Cuts by a spacing that nobody asked for: together they make at most about 4 million parts of a
+  /// mesh of so many triangles, 0 if that is not known.
+  static Cuts modest_cuts(double spacing, std::uint64_t triangles);
 
   /// Takes a piece. Its error ends the work.
   using Take = std::function<Result<void>(const MeshPiece&)>;
 
-  /// spacing  triangles are halved across their longest edge until none is longer than this, or
-  ///          kMaxCuts times; model units, may be infinite
-  MeshPieceMaker(double spacing, Take take);
+  /// Triangles are halved across their longest edge.
+  MeshPieceMaker(const Cuts& cuts, Take take);
 
   /// errors  those of Take
   Result<void> add(const std::array<Vec3, 3>& corners);
@@ -50,7 +58,7 @@ class MeshPieceMaker {
  private:
   Result<void> add_whole(const std::array<Vec3, 3>& corners);
 
-  const double spacing_;
+  const Cuts cuts_;
   const Take take_;
   MeshPiece piece_;
   PositionNumbers numbers_;

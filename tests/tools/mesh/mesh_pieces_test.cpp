@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
+#include <cstdint>
 #include <vector>
 
 namespace planetree::tools {
@@ -22,7 +24,7 @@ double area_of(const MeshPiece& piece) {
 
 TEST(MeshPieces, NumberAPositionOnce) {
   std::vector<MeshPiece> pieces;
-  MeshPieceMaker maker(std::numeric_limits<double>::infinity(), [&](const MeshPiece& piece) {
+  MeshPieceMaker maker({}, [&](const MeshPiece& piece) {
     pieces.push_back(piece);
     return Result<void>();
   });
@@ -37,7 +39,7 @@ TEST(MeshPieces, NumberAPositionOnce) {
 
 TEST(MeshPieces, CutLongTrianglesWithoutGapsOrTurns) {
   MeshPiece all;
-  MeshPieceMaker maker(0.25, [&](const MeshPiece& piece) {
+  MeshPieceMaker maker({0.25}, [&](const MeshPiece& piece) {
     all = piece;
     return Result<void>();
   });
@@ -54,7 +56,7 @@ TEST(MeshPieces, CutLongTrianglesWithoutGapsOrTurns) {
 
 TEST(MeshPieces, CutsHaveALimit) {
   std::size_t triangles = 0;
-  MeshPieceMaker maker(1e-9, [&](const MeshPiece& piece) {
+  MeshPieceMaker maker({1e-9}, [&](const MeshPiece& piece) {
     EXPECT_LE(piece.triangles.size(), MeshPieceMaker::kTriangles);
     triangles += piece.triangles.size();
     return Result<void>();
@@ -64,8 +66,18 @@ TEST(MeshPieces, CutsHaveALimit) {
   EXPECT_EQ(triangles, std::size_t{1} << MeshPieceMaker::kMaxCuts);
 }
 
+TEST(MeshPieces, AreModestInNumberUnlessToldOtherwise) {
+  for (const std::uint64_t triangles : {1U, 12U, 1000U, 100000U, 3000000U, 90000000U}) {
+    const int most = MeshPieceMaker::modest_cuts(0.1, triangles).most;
+    EXPECT_LE(most, MeshPieceMaker::kMaxCuts);
+    EXPECT_LE(triangles << most, std::max<std::uint64_t>(triangles, 1U << 22)) << triangles;
+    EXPECT_TRUE(most == MeshPieceMaker::kMaxCuts || triangles << (most + 1) > 1U << 22);
+  }
+  EXPECT_GT(MeshPieceMaker::modest_cuts(0.1, 0).most, 0);
+}
+
 TEST(MeshPieces, PassOnErrors) {
-  MeshPieceMaker maker(1, [](const MeshPiece&) -> Result<void> {
+  MeshPieceMaker maker({1}, [](const MeshPiece&) -> Result<void> {
     return make_error(ErrorCode::kNoSpace, Error::kNowhere, Error::kNowhere, "full");
   });
   EXPECT_TRUE(maker.add({Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}}));
