@@ -83,7 +83,8 @@ ValueSketch::Histogram ValueSketch::histogram(double lower, double upper, std::s
   const double per_width = static_cast<double>(bins) / (upper - lower);
   const auto add = [&](double value, double weight) {
     value = std::clamp(value, min_, max_);
-    const auto bin = static_cast<std::size_t>(std::max(value - lower, 0.0) * per_width);
+    const auto bin =
+        static_cast<std::size_t>((std::clamp(value, lower, upper) - lower) * per_width);
     double& to = value < lower   ? made.below
                  : value > upper ? made.above
                                  : made.shares[std::min(bin, bins - 1)];
