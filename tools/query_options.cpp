@@ -113,7 +113,7 @@ void add_answers(SubcommandOptions& subcommand, Options& options) {
   for (const auto other : {contains, nearest, within}) subcommand.exclude(contacts, other);
   subcommand.exclude(is_signed, contains);
   subcommand.exclude(parts, contains);
-  options.only_of_points = {contains, nearest, within, is_signed, parts, side, normal};
+  options.only_of_points = {contains, nearest, within, contacts, is_signed, parts, side, normal};
   subcommand.default_text(
       subcommand.word(
           "--format", {"csv", "jsonl", "f64", "ply"},

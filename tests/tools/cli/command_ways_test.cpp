@@ -219,7 +219,8 @@ TEST_F(WaysCommand, NamesTheLineThatItCannotRead) {
 TEST_F(WaysCommand, RefusesOptionsOfPoints) {
   const std::vector<std::vector<std::string>> others = {
       {"--contains"},           {"--signed"},       {"--parts", "side"}, {"--side", "solid"},
-      {"--normals", "outward"}, {"--nearest", "2"}, {"--within", "1"},   {"--max-error", "1"}};
+      {"--normals", "outward"}, {"--nearest", "2"}, {"--within", "1"},   {"--contacts", "1"},
+      {"--max-error", "1"}};
   for (const auto& other : others) {
     for (const char* way : {"--ray", "--sweep"}) {
       std::vector<std::string> arguments = {"query", "solid.ptree", way};
