@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "octree/builder/mesh/stream/mesh_text.h"
 #include "tools/cli/layer_option.h"
 #include "tools/cli/parts_option.h"
 #include "tools/cli/policy_option.h"

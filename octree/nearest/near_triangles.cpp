@@ -68,7 +68,7 @@ class CornerVisitor {
  public:
   static constexpr bool kMeasures = false;
 
-  CornerVisitor(TriangleSink& sink, TraversalStats& work) : sink_(sink), work_(work) {}
+  CornerVisitor(CorridorSink& sink, TraversalStats& work) : sink_(sink), work_(work) {}
 
   double reach() const { return sink_.reach(); }
 
@@ -83,7 +83,7 @@ class CornerVisitor {
   }
 
  private:
-  TriangleSink& sink_;
+  CorridorSink& sink_;
   TraversalStats& work_;
 };
 
@@ -94,7 +94,7 @@ double near_on_target(const TreeInfo& tree, const Point& query, NearTriangleSink
   return NearWalk(tree, query, corridor, visitor, limit, pages, work).run();
 }
 
-double in_corridor_on_target(const TreeInfo& tree, const Corridor& corridor, TriangleSink& sink,
+double in_corridor_on_target(const TreeInfo& tree, const Corridor& corridor, CorridorSink& sink,
                              WorkLimit& limit, const PageReader& pages, TraversalStats& work) {
   CornerVisitor visitor(sink, work);
   return NearWalk(tree, corridor.from, &corridor, visitor, limit, pages, work).run();
@@ -117,7 +117,7 @@ double near_triangles(const TreeInfo& tree, const Point& query, NearTriangleSink
   return HWY_DYNAMIC_DISPATCH(near_on_target)(tree, query, sink, limit, pages, work, corridor);
 }
 
-double triangles_in_corridor(const TreeInfo& tree, const Corridor& corridor, TriangleSink& sink,
+double triangles_in_corridor(const TreeInfo& tree, const Corridor& corridor, CorridorSink& sink,
                              WorkLimit& limit, const PageReader& pages,
                              TraversalStats& work) noexcept {
   assert(corridor.from.cwiseAbs().maxCoeff() <= kMaxQueryCoordinate);

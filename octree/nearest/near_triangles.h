@@ -29,9 +29,9 @@ class NearTriangleSink {
 };
 
 /// Receives the triangles that triangles_in_corridor() finds, in any order, each once.
-class TriangleSink {
+class CorridorSink {
  public:
-  virtual ~TriangleSink() = default;
+  virtual ~CorridorSink() = default;
 
   /// Distance from the corridor's start beyond which no triangle is wanted; model frame. It may
   /// shrink while triangles are taken.
@@ -55,7 +55,7 @@ double near_triangles(const TreeInfo& tree, const Point& query, NearTriangleSink
 
 /// Finds the triangles that have a point in a corridor, from its start on; else as
 /// near_triangles().
-double triangles_in_corridor(const TreeInfo& tree, const Corridor& corridor, TriangleSink& sink,
+double triangles_in_corridor(const TreeInfo& tree, const Corridor& corridor, CorridorSink& sink,
                              WorkLimit& limit, const PageReader& pages,
                              TraversalStats& work) noexcept;
 

@@ -21,7 +21,7 @@ bool is_before(const RayHit& left, const RayHit& right) {
 
 // Keeps the first hits in the caller's memory, as a heap with the last first. Positions are those
 // of the way.
-class FirstKept final : public octree::TriangleSink {
+class FirstKept final : public octree::CorridorSink {
  public:
   /// range  of the way in which there are triangles
   FirstKept(const ModelLine& way, const octree::LineRange& range, bool wants_all,
