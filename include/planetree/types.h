@@ -224,8 +224,8 @@ struct ClosestPoint {
   double signed_distance() const noexcept { return side == Side::kInside ? -distance : distance; }
 };
 
-/// How many triangles, hits or contacts a query found, see Probe::nearest_triangles, Probe::all_hits
-/// and Probe::contacts.
+/// How many triangles, hits or contacts a query found, see Probe::nearest_triangles,
+/// Probe::all_hits and Probe::contacts.
 struct Found {
   std::size_t count = 0;  ///< answers written
   bool complete = false;  ///< whether no other one belongs to the set

@@ -86,20 +86,17 @@ class CoherenceCache {
   /// Drops the ball.
   void forget() { radius_ = 0; }
 
-  /// How queries follow each other: along a path, which leads away from a ball's centre, or along
-  /// a space-filling curve, which stays near it, so that a smaller ball lasts as long.
-  /// The order of a batch is such a curve, and not the caller's.
+  /// How queries follow each other: in the caller's order, as along a path, or in that of a batch,
+  /// which is not the caller's, along a space-filling curve.
   enum class Course { kPath, kCurve };
   void follow(Course course) { course_ = course; }
   Course course() const { return course_; }
 
  private:
   double step_to(const Point& query) const { return (query - last_).norm(); }
-  // Radius of a ball that lasts for the steps of the course, about a query `distance` from the
-  // surface.
+  // Radius of a ball that lasts for kSteps, about a query `distance` from the surface.
   double radius_for(double step, double distance) const {
-    const double steps = course_ == Course::kPath ? kPathSteps : kCurveSteps;
-    return distance + steps * std::max(step, distance * kMinStepShare);
+    return distance + kSteps * std::max(step, distance * kMinStepShare);
   }
 
   // Upper bound on the distance of a nearest point from the surface. Its coordinates are rounded,
@@ -110,8 +107,7 @@ class CoherenceCache {
 
   static constexpr double kMaxStepShare = 0x1p-6;  ///< share of the model's diagonal
   static constexpr double kMinStepShare = 0x1p-6;  ///< share of the distance to the surface
-  static constexpr double kPathSteps = 24;         ///< steps that a ball lasts for, on a path
-  static constexpr double kCurveSteps = 24;         ///< the same, on a curve
+  static constexpr double kSteps = 24;             ///< steps that a ball lasts for
   static constexpr double kMaxRadiusRatio = 16;    ///< dropped beyond this multiple of radius_for()
 
   Point centre_ = Point::Zero();

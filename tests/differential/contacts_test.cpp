@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "tests/oracle/built_model.h"
-#include "tests/oracle/contact_oracle.h"
 #include "tests/oracle/nasty_models.h"
+#include "tests/oracle/queries/contact_oracle.h"
 
 namespace planetree::oracle {
 namespace {

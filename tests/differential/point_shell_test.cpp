@@ -12,8 +12,8 @@
 #include "planetree/point_shell.h"
 #include "tests/oracle/closed_models.h"
 #include "tests/oracle/nasty_models.h"
+#include "tests/oracle/queries/wrench_oracle.h"
 #include "tests/oracle/sheet_models.h"
-#include "tests/oracle/wrench_oracle.h"
 
 namespace planetree::oracle {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "tests/oracle/nasty_models.h"
+#include "tests/oracle/queries/way_oracle.h"
 #include "tests/oracle/random.h"
-#include "tests/oracle/way_oracle.h"
 
 namespace planetree::oracle {
 namespace {

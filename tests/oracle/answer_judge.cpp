@@ -11,7 +11,7 @@
 #include "octree/builder/mesh/mesh_reader.h"
 #include "octree/builder/surface/edge_sum.h"
 #include "tests/oracle/answer_evidence.h"
-#include "tests/oracle/triangle_part.h"
+#include "tests/oracle/queries/triangle_part.h"
 #include "tests/oracle/triangle_rounds.h"
 #include "tests/oracle/winding.h"
 

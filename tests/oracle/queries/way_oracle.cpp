@@ -1,4 +1,4 @@
-#include "tests/oracle/way_oracle.h"
+#include "tests/oracle/queries/way_oracle.h"
 
 #include <algorithm>
 #include <cmath>

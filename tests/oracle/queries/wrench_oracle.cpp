@@ -1,4 +1,4 @@
-#include "tests/oracle/wrench_oracle.h"
+#include "tests/oracle/queries/wrench_oracle.h"
 
 #include <algorithm>
 #include <cmath>

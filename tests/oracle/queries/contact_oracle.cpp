@@ -1,4 +1,4 @@
-#include "tests/oracle/contact_oracle.h"
+#include "tests/oracle/queries/contact_oracle.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "tests/oracle/triangle_part.h"
+#include "tests/oracle/queries/triangle_part.h"
 
 #include <algorithm>
 #include <cmath>
