@@ -104,7 +104,7 @@ TEST(RandomModels, AnswersAreTheSameInLittleMemoryAndInBatches) {
     Random random(5);
     const Soup triangles = family.make(random);
     BuiltModel spacious(triangles, {4096});
-    BuiltModel cramped(triangles, {4096, std::uint64_t{340} << 10, 1});
+    BuiltModel cramped(triangles, {4096, std::uint64_t{480} << 10, 1});
     std::vector<Vec3> queries;
     for (int k = 0; k < kQueriesPerModel; ++k) queries.push_back(nasty_query(random, triangles, 1));
     std::vector<ClosestPoint> answers(queries.size());

@@ -142,7 +142,7 @@ TEST(SheetSides, NormalsDoNotJumpAlongABowl) {
 // A side without a proof never has status kExact.
 TEST(SheetSides, LittleWorkAndMemoryNeverMakeAnUnprovenSideExact) {
   // Its pages take more than the budget.
-  BuiltModel model(hills(150), {4096, 1 << 20, 2});
+  BuiltModel model(hills(150), {4096, 1100 << 10, 2});
   Random random(6);
   int unknown = 0;
   for (std::uint32_t work = 1; work <= 64; ++work)
