@@ -82,7 +82,8 @@ void expect_contact(const Soup& triangles, const Sweep& sweep, const FirstContac
       EXPECT_NEAR(answer.at.distance, sweep.radius, 1e-6 * (size + sweep.radius));
     } else {
       EXPECT_LE(answer.at.distance,
-                sweep.radius * (1 + 1e-12) + 1e-12 * (largest(triangles) + largest(sweep.from)));
+                sweep.radius * (1 + 1e-12) +
+                    1e-12 * (largest(triangles) + largest(sweep.from) + largest(sweep.to)));
     }
   }
 }
