@@ -49,6 +49,7 @@ class ContactQuery {
     while (find_round(wanted)) {
     }
     if (!is_cut_ && unread_ <= triangles_.reach()) is_degraded_ = true;
+    restore_order();
     add_unseen_nearest();
     return {{count_, !is_degraded_ && !is_cut_},
             is_degraded_,
@@ -191,6 +192,18 @@ class ContactQuery {
     if (!is_known) contact.status = Status::kDegraded;
   }
 
+  static bool is_nearer(const ClosestPoint& left, const ClosestPoint& right) {
+    return left.distance < right.distance;
+  }
+
+  // Puts contacts of a forged file in order, whose bounds may be wrong, so that rounds overlap.
+  void restore_order() {
+    const auto contacts = found_.first(count_);
+    if (std::is_sorted(contacts.begin(), contacts.end(), is_nearer)) return;
+    std::sort(contacts.begin(), contacts.end(), is_nearer);
+    is_degraded_ = true;
+  }
+
   // Adds the nearest point if its triangle was not found again: its page is missing by now, or the
   // work was spent.
   void add_unseen_nearest() {
@@ -198,10 +211,7 @@ class ContactQuery {
       return;
     is_degraded_ |= nearest_.status != Status::kExact || !is_cut_;
     const auto contacts = found_.first(count_);
-    const auto at = std::upper_bound(contacts.begin(), contacts.end(), nearest_,
-                                     [](const ClosestPoint& left, const ClosestPoint& right) {
-                                       return left.distance < right.distance;
-                                     });
+    const auto at = std::upper_bound(contacts.begin(), contacts.end(), nearest_, is_nearer);
     if (at == found_.end()) return;
     if (count_ < found_.size()) ++count_;
     std::move_backward(at, found_.first(count_).end() - 1, found_.first(count_).end());
