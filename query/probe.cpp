@@ -195,6 +195,7 @@ Found ProbeState::find_contacts(const Vec3& query, double radius, std::span<Clos
   octree::TraversalStats work;
   const ContactSet set = query::find_contacts({model_.geometry, accessor.pages(), coherence_, work},
                                               query, radius, limited, contact_triangles_, found);
+  work_spent_ += work.units;
   side_searches_ += coherence_.searched_side;
   last_parts_ = computed_parts(options.parts | kDistance);
   last_side_rule_ = options.side_rule;

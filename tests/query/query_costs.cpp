@@ -96,17 +96,31 @@ void touch_code() noexcept {
   ::dl_iterate_phdr(access, nullptr);
 }
 
+constexpr QueryOptions kNow{.wait = Wait::kNever};
+
+// Queries that take longer than one for the closest point: of sets, of rays and of moving balls.
+void run_long_queries(Probe& probe, const Vec3& point, const Vec3& next) noexcept {
+  std::array<ClosestPoint, 16> found;
+  std::array<RayHit, 16> hits;
+  probe.contacts(point, 0.3, found, kNow);
+  probe.nearest_triangles(point, found, kNow);
+  probe.triangles_within(point, 0.1, found, kNow);
+  probe.triangles_within(Box{point, {point.x + 0.1, point.y + 0.1, point.z + 0.1}}, found, kNow);
+  const Ray ray{point, {next.x - point.x, next.y - point.y, next.z - point.z}};
+  probe.first_hit(ray, kNow);
+  probe.all_hits(ray, hits, kNow);
+  probe.first_contact({point, next, 0.01}, kNow);
+}
+
 std::uint64_t run_queries(Probe& probe, std::span<const Vec3> points,
                           std::uint64_t queries) noexcept {
-  constexpr QueryOptions kNow{.wait = Wait::kNever};
-  constexpr std::uint64_t kPointsForASet = 8;  // a set takes longer
-  std::array<ClosestPoint, 16> found;
+  constexpr std::uint64_t kPointsForLong = 8;
   std::uint64_t degraded = 0;
   for (std::uint64_t i = 0; i < queries; ++i) {
     const Vec3& point = points[i % points.size()];
     degraded += probe.closest_point(point, kNow).status == Status::kDegraded;
     probe.contains(point, kNow);
-    if (i % kPointsForASet == 0) probe.contacts(point, 0.3, found, kNow);
+    if (i % kPointsForLong == 0) run_long_queries(probe, point, points[(i + 1) % points.size()]);
     probe.motion(point, {1, 0, 0});
   }
   return degraded;

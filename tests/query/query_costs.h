@@ -26,8 +26,9 @@ struct QueryCosts {
 };
 
 /// Queries the points in turn, without pause, on a thread of its own: distance, side and normal,
-/// then the side alone, contacts at every eighth point, then a motion. The system calls of that
-/// thread are trapped meanwhile.
+/// then the side alone, then a motion. Every eighth point also has one query of each other kind:
+/// contacts, sets of triangles, rays and a moving ball. The system calls of that thread are trapped
+/// meanwhile.
 ///
 /// warm_up         number of queries before counting starts
 /// resident_bytes  of the process before the model was opened: see resident_memory_bytes()

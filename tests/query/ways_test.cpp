@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "planetree/probe.h"
@@ -145,6 +146,34 @@ TEST_F(Ways, DoNotAllocate) {
     probe.first_contacts(motions, contacts, options);
   }
   EXPECT_EQ(cache::allocation_count(), allocations);
+}
+
+// Queries of every kind count in Probe::work_spent().
+TEST_F(Ways, AndAllOtherQueriesSpendWork) {
+  const Model model = sample_.open();
+  Probe probe = make_probe(model);
+  std::vector<ClosestPoint> found(8);
+  std::vector<RayHit> hits(8);
+  std::uint64_t before = 0;
+  const auto spent = [&] { return probe.work_spent() - std::exchange(before, probe.work_spent()); };
+  const Vec3 query{0.9, 0.2, 0.1};
+  const Ray ray{query, {-2, 0.3, 0.1}};
+  probe.closest_point(query);
+  EXPECT_GT(spent(), 0u);
+  probe.contacts(query, 0.2, found);
+  EXPECT_GT(spent(), 0u);
+  probe.nearest_triangles(query, found);
+  EXPECT_GT(spent(), 0u);
+  probe.triangles_within(query, 0.2, found);
+  EXPECT_GT(spent(), 0u);
+  probe.triangles_within(Box{{0.8, 0, 0}, {1, 0.2, 0.2}}, found);
+  EXPECT_GT(spent(), 0u);
+  probe.first_hit(ray);
+  EXPECT_GT(spent(), 0u);
+  probe.all_hits(ray, hits);
+  EXPECT_GT(spent(), 0u);
+  probe.first_contact({query, {-1, 0, 0}, 0.01});
+  EXPECT_GT(spent(), 0u);
 }
 
 // Consecutive motions of a point never pass through the surface unseen.
