@@ -1,4 +1,5 @@
 // Sets of triangles about nasty points of nasty models, against all triangles.
+// PLANETREE_TEST_EFFORT in the environment multiplies the number of models.
 
 #include <gtest/gtest.h>
 
@@ -75,7 +76,7 @@ TEST(TriangleSets, AreThoseOfAllTriangles) {
   for (const NastyFamily& family : nasty_families()) {
     SCOPED_TRACE(std::string(family.name));
     Random random(31);
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 3 * test_effort(); ++i) {
       BuiltModel model(family.make(random), {4096});
       for (int k = 0; k < 25 && !testing::Test::HasFatalFailure(); ++k) {
         const Vec3 query = nasty_query(random, model.triangles(), 1);
