@@ -112,12 +112,28 @@ std::vector<Exact> clipped(const std::vector<Exact>& polygon, std::size_t axis, 
   return kept;
 }
 
-// Whether a closed triangle touches a closed box, by clipping with fractions.
+// Whether a closed triangle touches a closed box: by its corners where these tell it, else by
+// clipping with fractions.
 bool touches(const Corners& triangle, const Box& box) {
-  std::vector<Exact> polygon;
-  for (const Vec3& corner : triangle) polygon.push_back({corner.x, corner.y, corner.z});
   const std::array<double, 3> lower{box.lower.x, box.lower.y, box.lower.z};
   const std::array<double, 3> upper{box.upper.x, box.upper.y, box.upper.z};
+  std::array<bool, 3> has_corner_within{true, true, true};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    bool all_below = true, all_above = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3& corner = triangle[k];
+      const double at = axis == 0 ? corner.x : axis == 1 ? corner.y : corner.z;
+      all_below = all_below && at < lower[axis];
+      all_above = all_above && at > upper[axis];
+      has_corner_within[k] = has_corner_within[k] && at >= lower[axis] && at <= upper[axis];
+    }
+    if (all_below || all_above) return false;
+  }
+  if (std::find(has_corner_within.begin(), has_corner_within.end(), true) !=
+      has_corner_within.end())
+    return true;
+  std::vector<Exact> polygon;
+  for (const Vec3& corner : triangle) polygon.push_back({corner.x, corner.y, corner.z});
   for (std::size_t axis = 0; axis < 3; ++axis) {
     polygon = clipped(polygon, axis, lower[axis], true);
     polygon = clipped(polygon, axis, upper[axis], false);
