@@ -34,6 +34,20 @@ double height_over(const Triangle& triangle, const Point& centre, const Point& n
   return height - kPlaneRounding * farthest;
 }
 
+// Returns a vector across the edge that a nearest point is on, and the vector itself if that point
+// is on no edge. Close to an edge, rounding tilts the vector to the nearest point so far that the
+// ends of the edge are above the plane.
+Point across_edge(const Triangle& triangle, const NearestOnTriangle& nearest, const Point& toward) {
+  if (nearest.feature != Feature::kEdge) return toward;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (nearest.barycentric[k] > 0) continue;
+    const Point edge = triangle[(k + 2) % 3] - triangle[(k + 1) % 3];
+    const double squared = edge.dot(edge);
+    if (squared > kUnresolvedLength) return toward - edge * (toward.dot(edge) / squared);
+  }
+  return toward;
+}
+
 }  // namespace
 
 MovingBall::MovingBall(const Point& from, const Point& to, double radius)
@@ -67,7 +81,7 @@ double MovingBall::free_step(const Triangle& triangle, const Point& centre,
       distance - nearest.value.error - position_error_ - radius_ - margin - distance * kEndRounding;
   double step = gap > 0 ? gap / length_ : 0;
 
-  const Point toward = centre - nearest.point;
+  const Point toward = across_edge(triangle, nearest, centre - nearest.point);
   const double length = toward.norm();
   if (!(length > kUnresolvedLength)) return step;
   const Point normal = toward * ((1 - kNormRounding) / length);

@@ -111,5 +111,27 @@ TEST(Sweeps, StopAtTheFirstContact) {
   EXPECT_LT(open, contacts / 5);
 }
 
+// A small ball that moves almost along an edge, closer than rounding lets the direction to the edge
+// be known, is free if it stays beside it.
+TEST(Sweeps, PassAlongAnEdge) {
+  Random random(44);
+  for (int i = 0; i < 40; ++i) {
+    const Corners triangle{random.in_some_cube(0, 0), random.in_some_cube(0, 0),
+                           random.in_some_cube(0, 0)};
+    const Vec3 edge = triangle[1] - triangle[0], other = triangle[2] - triangle[0];
+    const double squared = edge.x * edge.x + edge.y * edge.y + edge.z * edge.z;
+    const double share = (edge.x * other.x + edge.y * other.y + edge.z * other.z) / squared;
+    const Vec3 away = edge * share - other;
+    const double height = std::ldexp(1e-9, static_cast<int>(random.below(6)));
+    const Sweep sweep{triangle[0] + edge * 0.1 + away * height,
+                      triangle[1] - edge * 0.1 + away * (2 * height), 1e-12};
+    BuiltModel model(Soup{triangle}, {4096});
+    const FirstContact answer = model.probe().first_contact(sweep);
+    SCOPED_TRACE(i);
+    EXPECT_GE(compare_way(sweep, 1, triangle), 0);
+    EXPECT_TRUE(answer.free) << answer.t;
+  }
+}
+
 }  // namespace
 }  // namespace planetree::oracle
