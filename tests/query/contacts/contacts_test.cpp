@@ -51,11 +51,14 @@ TEST_F(Contacts, AreTheSameInLittleMemory) {
 }
 
 TEST_F(Contacts, ComeWithoutWaitingOnceThePagesAreThere) {
-  const Model model = sample_.open(), other = sample_.open();
-  Probe probe = make_probe(model), blocking = make_probe(other);
+  const Model other = sample_.open();
+  Probe blocking = make_probe(other);
   std::vector<ClosestPoint> expected(found_.size());
   int incomplete = 0;
   for (const Vec3& query : random_queries(10, -1.2, 1.2)) {
+    // Of a model just opened no page is there, however fast the fetch thread is.
+    const Model model = sample_.open();
+    Probe probe = make_probe(model);
     const double radius = 1.02 * blocking.closest_point(query).distance + 0.01;
     const Found all = blocking.contacts(query, radius, expected);
     Found set;
@@ -66,7 +69,7 @@ TEST_F(Contacts, ComeWithoutWaitingOnceThePagesAreThere) {
     }));
     for (std::size_t i = 0; i < set.count; ++i) EXPECT_EQ(bits_of(found_[i]), bits_of(expected[i]));
   }
-  EXPECT_GT(incomplete, 0);
+  EXPECT_GT(incomplete, 3);
 }
 
 // Whether each contact that is marked exact is among those expected. Counts the others.
