@@ -42,8 +42,7 @@ Point across_edge(const Triangle& triangle, const NearestOnTriangle& nearest, co
   for (std::size_t k = 0; k < 3; ++k) {
     if (nearest.barycentric[k] > 0) continue;
     const Point edge = triangle[(k + 2) % 3] - triangle[(k + 1) % 3];
-    const double squared = edge.dot(edge);
-    if (squared > kUnresolvedLength) return toward - edge * (toward.dot(edge) / squared);
+    if (edge.norm() > kUnresolvedLength) return toward - edge * (toward.dot(edge) / edge.dot(edge));
   }
   return toward;
 }

@@ -14,9 +14,11 @@
 /// since a plane of normal n that has all corners behind it has the triangle behind it. The right
 /// side is linear in t. So from a t at which the ball is free, the plane at the triangle's nearest
 /// point, facing the centre, proves it free until the ball meets that plane; and that the speed is
-/// bounded proves it free for (d - r) / speed. The search takes the larger step until it gains
-/// nothing above rounding. It is Newton's method from the left: above a face it takes one step, and
-/// over an edge or a vertex some four. It begins where the plane across the motion is met.
+/// bounded proves it free for (d - r) / speed. Over an edge the plane is turned to be along the
+/// edge: close to it, rounding tilts the plane until it leaves an end of the edge before it. The
+/// search takes the larger step until it gains nothing above rounding. It is Newton's method from
+/// the left: above a face it takes one step, and over an edge or a vertex some four. It begins
+/// where the plane across the motion is met.
 ///
 /// source  conservative advancement, Mirtich 1996, "Impulse-based dynamic simulation of rigid body
 ///         systems", with separating planes in place of bounds on the velocity.
