@@ -14,7 +14,6 @@
 #include "query/answer/side.h"
 #include "query/model_state.h"
 #include "query/probe_state.h"
-#include "query/serve/page_accessor.h"
 
 namespace planetree::query {
 
@@ -41,18 +40,14 @@ ClosestPoint ProbeState::find_closest_point(const Vec3& query,
   ClosestPoint answer = unanswered(valid ? Status::kExact : Status::kBadQuery);
   if (!valid) return answer;
   const QueryOptions limited = with_defaults(options);
-  PageAccessor accessor(reader_, options.wait, model_.query_terms);
-  begin_trace(kKind, options.wait, accessor);
-  octree::TraversalStats work;
-  const bool incomplete = query::closest_point(
-      {model_.geometry, accessor.pages(), coherence_, work}, query, limited, answer);
-  work_spent_ += work.units;
-  if (incomplete && accessor.missed()) request(query, limited, limited.parts);
+  RunningQuery running(*this, kKind, options.wait);
+  const bool incomplete = query::closest_point(running.context(), query, limited, answer);
+  if (incomplete && running.missed()) request(query, limited, limited.parts);
   side_searches_ += coherence_.searched_side;
   last_parts_ = computed_parts(options.parts);
   last_side_rule_ = options.side_rule;
   if (answer.status == Status::kDegraded)
-    note_degraded(answer.upper - answer.lower, accessor.missed());
+    note_degraded(answer.upper - answer.lower, running.missed());
   return answer;
 }
 
@@ -70,16 +65,11 @@ ClosestPoint ProbeState::closest_point(const Vec3& query, const QueryOptions& op
     const Vec3& query, const QueryOptions& options, const octree::Point& scaled,
     const octree::SideGrid::Lookup& lookup) noexcept {
   const QueryOptions limited = with_defaults(options);
-  PageAccessor accessor(reader_, options.wait, model_.query_terms);
-  accessor.set_trace(trace_);
-  octree::TraversalStats work;
-  const SideResult side = find_containment({model_.geometry, accessor.pages(), coherence_, work},
-                                           query, scaled, lookup, limited);
-  work_spent_ += work.units;
+  RunningQuery running(*this, options.wait);
+  const SideResult side = find_containment(running.context(), query, scaled, lookup, limited);
   if (side.status == Status::kDegraded) {
-    if (accessor.missed()) request(query, limited, kSide);
-    accessor.pages().need_others();
-    note_degraded(std::numeric_limits<double>::infinity(), accessor.missed());
+    if (running.missed()) request(query, limited, kSide);
+    running.note_degraded();
   }
   return {side.side, side.status};
 }
@@ -96,7 +86,7 @@ ClosestPoint ProbeState::closest_point(const Vec3& query, const QueryOptions& op
 [[gnu::noinline]] Containment ProbeState::leave_unknown(const QueryOptions& options) noexcept {
   last_parts_ = kSide;
   last_side_rule_ = options.side_rule;
-  if (trace_) trace_->begin_query(PageAccess::Query::kContains, options.wait);
+  begin_trace(PageAccess::Query::kContains, options.wait);
   note_degraded(std::numeric_limits<double>::infinity(), false);
   return {Side::kUnknown, Status::kDegraded};
 }
@@ -109,7 +99,7 @@ Containment ProbeState::contains(const Vec3& query, const QueryOptions& options)
   const octree::Point scaled = model_.geometry.scale.in(query);
   last_parts_ = kSide;
   last_side_rule_ = options.side_rule;
-  if (trace_) trace_->begin_query(PageAccess::Query::kContains, options.wait);
+  begin_trace(PageAccess::Query::kContains, options.wait);
   const octree::SideGrid::Lookup lookup =
       look_up_side_grid(model_.geometry, scaled, frames_of(reader_));
   coherence_.side_grid_answered = lookup.winding != octree::SideGrid::kUnknown;
@@ -127,14 +117,12 @@ std::uint32_t ProbeState::fetch_pages(const Vec3& query, const QueryOptions& opt
        !model_.cache.holds_all_pages()))
     return 0;
   coherence_.is_on = coherence_.follows_motion = reason == FetchReason::kMotion;
-  PageAccessor accessor(reader_, options.wait, model_.fetcher_terms, &stop);
-  begin_trace(is_prefetch ? PageAccess::Query::kPrefetch : PageAccess::Query::kFetch, options.wait,
-              accessor);
+  RunningQuery running(*this,
+                       is_prefetch ? PageAccess::Query::kPrefetch : PageAccess::Query::kFetch,
+                       options.wait, &stop);
   ClosestPoint unused = unanswered(Status::kExact);
-  octree::TraversalStats work;
-  query::closest_point({model_.geometry, accessor.pages(), coherence_, work}, query, options,
-                       unused);
-  return accessor.fetched();
+  query::closest_point(running.context(), query, options, unused);
+  return running.fetched();
 }
 
 Found ProbeState::find_triangles(const TriangleSetQuery& query, std::span<ClosestPoint> found,
@@ -161,23 +149,21 @@ template <class Find>
 Found ProbeState::find_set(const Vec3& centre, double radius, std::span<ClosestPoint> found,
                            const QueryOptions& options, const Find& find) noexcept {
   QueryOptions limited = with_defaults(options);
-  octree::TraversalStats work;
   TriangleSet set;
+  std::uint64_t units = 0;
   {
-    PageAccessor accessor(reader_, options.wait, model_.query_terms);
-    begin_trace(PageAccess::Query::kClosestPoint, options.wait, accessor);
-    set = find(QueryContext{model_.geometry, accessor.pages(), coherence_, work}, limited);
-    work_spent_ += work.units;
+    RunningQuery running(*this, PageAccess::Query::kClosestPoint, options.wait);
+    set = find(running.context(), limited);
+    units = running.units();
     if (set.is_degraded) {
-      if (accessor.missed()) request(centre, limited, kDistance, found.size(), radius);
-      accessor.pages().need_others();
-      note_degraded(std::numeric_limits<double>::infinity(), accessor.missed());
+      if (running.missed()) request(centre, limited, kDistance, found.size(), radius);
+      running.note_degraded();
     }
   }
   if ((options.parts & kSide) == 0 || set.found.count == 0) return set.found;
   if (limited.max_work != QueryOptions::kNoLimit)
     limited.max_work -=
-        static_cast<std::uint32_t>(std::min<std::uint64_t>(work.units, limited.max_work));
+        static_cast<std::uint32_t>(std::min<std::uint64_t>(units, limited.max_work));
   const Side side = contains(centre, limited).side;
   for (ClosestPoint& answer : found.first(set.found.count)) {
     answer.side = side;
@@ -190,23 +176,22 @@ Found ProbeState::find_contacts(const Vec3& query, double radius, std::span<Clos
                                 const QueryOptions& options) noexcept {
   if (!is_valid(query, options) || !(radius >= 0)) return {};
   QueryOptions limited = with_defaults(options);
-  PageAccessor accessor(reader_, options.wait, model_.query_terms);
-  begin_trace(PageAccess::Query::kClosestPoint, options.wait, accessor);
-  octree::TraversalStats work;
-  const ContactSet set = query::find_contacts({model_.geometry, accessor.pages(), coherence_, work},
-                                              query, radius, limited, contact_triangles_, found);
-  work_spent_ += work.units;
+  RunningQuery running(*this, PageAccess::Query::kClosestPoint, options.wait);
+  const ContactSet set =
+      query::find_contacts(running.context(), query, radius, limited, contact_triangles_, found);
   side_searches_ += coherence_.searched_side;
   last_parts_ = computed_parts(options.parts | kDistance);
   last_side_rule_ = options.side_rule;
   if (!set.is_degraded && !set.nearest_is_incomplete) return set.found;
   limited.max_distance = std::min(limited.max_distance, radius);
-  if (set.is_degraded) accessor.pages().need_others();
-  if (accessor.missed() && set.is_degraded)
+  if (running.missed() && set.is_degraded)
     request(query, limited, kDistance, octree::ContactTriangles::kMax, set.reach);
-  else if (accessor.missed())
+  else if (running.missed())
     request(query, limited, last_parts_);
-  note_degraded(std::numeric_limits<double>::infinity(), accessor.missed());
+  if (set.is_degraded)
+    running.note_degraded();
+  else
+    note_degraded(std::numeric_limits<double>::infinity(), running.missed());
   return set.found;
 }
 
@@ -214,10 +199,8 @@ void ProbeState::fetch_triangles(const TriangleSetQuery& query, std::uint64_t co
                                  const QueryOptions& options,
                                  const std::atomic<bool>& stop) noexcept {
   if (!is_valid(query.centre, options) || !(query.radius >= 0)) return;
-  PageAccessor accessor(reader_, options.wait, model_.fetcher_terms, &stop);
-  begin_trace(PageAccess::Query::kFetch, options.wait, accessor);
-  octree::TraversalStats work;
-  visit_triangles({model_.geometry, accessor.pages(), coherence_, work}, query, count, options);
+  RunningQuery running(*this, PageAccess::Query::kFetch, options.wait, &stop);
+  visit_triangles(running.context(), query, count, options);
 }
 
 }  // namespace planetree::query

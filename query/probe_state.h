@@ -108,6 +108,8 @@ class ProbeState {
   // is ever displaced.
   static constexpr std::uint32_t kMinFramesToPrefetch = 8;
 
+  class RunningQuery;
+
   ProbeState(const ServingModel& model, cache::Reader reader,
              std::unique_ptr<BatchBuffers> batch_buffers) noexcept
       : reader_(std::move(reader)),
@@ -122,11 +124,8 @@ class ProbeState {
                           const octree::SideGrid::Lookup& lookup) noexcept;
   Containment find_front(const Vec3& query, QueryOptions options) noexcept;
   Containment leave_unknown(const QueryOptions& options) noexcept;
-  // Records the lookups of a query of this kind, if the model keeps a trace.
-  void begin_trace(PageAccess::Query kind, Wait wait, PageAccessor& accessor) noexcept {
-    if (!trace_) return;
-    trace_->begin_query(kind, wait);
-    accessor.set_trace(trace_);
+  void begin_trace(PageAccess::Query kind, Wait wait) noexcept {
+    if (trace_) trace_->begin_query(kind, wait);
   }
   template <class Find>
   Found find_set(const Vec3& centre, double radius, std::span<ClosestPoint> found,
@@ -135,7 +134,7 @@ class ProbeState {
   void request(const Vec3& query, const QueryOptions& options, std::uint32_t parts,
                std::uint64_t triangles = 0, double radius = 0) noexcept;
   void note_missing_way(const ModelLine& way, double end, double radius, std::uint64_t count,
-                        const QueryOptions& options, PageAccessor& accessor) noexcept;
+                        const QueryOptions& options, RunningQuery& running) noexcept;
 
   // First, so that it is destroyed last: once the reader slot is released, another thread may make
   // a probe in this memory.
@@ -149,6 +148,46 @@ class ProbeState {
   std::uint64_t side_searches_ = 0;              // closest-point queries that searched for the side
   Coherence coherence_;
   octree::ContactTriangles contact_triangles_;  // of one query
+};
+
+/// A query while it runs: its access to pages, its page trace if the model keeps one, and its work,
+/// which counts in work_spent() when it ends.
+class ProbeState::RunningQuery {
+ public:
+  /// For a query whose trace has begun.
+  ///
+  /// stop  null but for the queries of fetch threads: see PageAccessor
+  RunningQuery(ProbeState& probe, Wait wait, const std::atomic<bool>* stop = nullptr) noexcept
+      : probe_(probe),
+        accessor_(probe.reader_, wait, stop ? probe.model_.fetcher_terms : probe.model_.query_terms,
+                  stop) {
+    accessor_.set_trace(probe.trace_);
+  }
+  RunningQuery(ProbeState& probe, PageAccess::Query kind, Wait wait,
+               const std::atomic<bool>* stop = nullptr) noexcept
+      : RunningQuery(probe, wait, stop) {
+    probe.begin_trace(kind, wait);
+  }
+  ~RunningQuery() { probe_.work_spent_ += work_.units; }
+  RunningQuery(const RunningQuery&) = delete;
+  RunningQuery& operator=(const RunningQuery&) = delete;
+
+  QueryContext context() noexcept {
+    return {probe_.model_.geometry, accessor_.pages(), probe_.coherence_, work_};
+  }
+  std::uint64_t units() const noexcept { return work_.units; }
+  std::uint32_t fetched() const noexcept { return accessor_.fetched(); }
+  bool missed() const noexcept { return accessor_.missed(); }
+  /// Notes an answer of which nothing is known but what it says.
+  void note_degraded() noexcept {
+    accessor_.pages().need_others();
+    probe_.note_degraded(std::numeric_limits<double>::infinity(), missed());
+  }
+
+ private:
+  ProbeState& probe_;
+  PageAccessor accessor_;
+  octree::TraversalStats work_;
 };
 
 inline Containment ProbeState::contains_fast(const Vec3& query,

@@ -21,9 +21,9 @@ constexpr std::size_t kMaxHitsToFetch = 32;
 // Leaves a fetch request for a way up to a position, and notes that the answer lacks pages.
 void ProbeState::note_missing_way(const ModelLine& way, double end, double radius,
                                   std::uint64_t count, const QueryOptions& options,
-                                  PageAccessor& accessor) noexcept {
+                                  RunningQuery& running) noexcept {
   const Scale& scale = model_.geometry.scale;
-  if (accessor.missed() && !way.is_far()) {
+  if (running.missed() && !way.is_far()) {
     const octree::TreeInfo& tree = model_.geometry.tree;
     const octree::LineRange range = way.within(tree.box_lower, tree.box_upper, scale.in(radius));
     FetchRequest request;
@@ -37,22 +37,17 @@ void ProbeState::note_missing_way(const ModelLine& way, double end, double radiu
     request.is_way = 1;
     model_.requests(reader_.index()).missed.store(request);
   }
-  accessor.pages().need_others();
-  note_degraded(std::numeric_limits<double>::infinity(), accessor.missed());
+  running.note_degraded();
 }
 
 RayHit ProbeState::first_hit(const Ray& ray, const QueryOptions& options) noexcept {
   if (!is_valid(ray.origin, options) || !is_valid(ray)) return {};
   const QueryOptions limited = with_defaults(options);
   const ModelLine way(model_.geometry.scale, ray);
-  octree::TraversalStats work;
-  PageAccessor accessor(reader_, options.wait, model_.query_terms);
-  begin_trace(PageAccess::Query::kClosestPoint, options.wait, accessor);
+  RunningQuery running(*this, PageAccess::Query::kClosestPoint, options.wait);
   bool is_degraded = false;
-  const RayHit hit = query::first_hit({model_.geometry, accessor.pages(), coherence_, work}, way,
-                                      limited, is_degraded);
-  work_spent_ += work.units;
-  if (is_degraded) note_missing_way(way, way.range().upper, 0, 1, limited, accessor);
+  const RayHit hit = query::first_hit(running.context(), way, limited, is_degraded);
+  if (is_degraded) note_missing_way(way, way.range().upper, 0, 1, limited, running);
   return hit;
 }
 
@@ -62,14 +57,9 @@ Found ProbeState::all_hits(const Ray& ray, std::span<RayHit> hits,
   const QueryOptions limited = with_defaults(options);
   ModelLine way(model_.geometry.scale, ray);
   way.end_after(model_.geometry.scale.in(options.max_distance));
-  octree::TraversalStats work;
-  PageAccessor accessor(reader_, options.wait, model_.query_terms);
-  begin_trace(PageAccess::Query::kClosestPoint, options.wait, accessor);
-  const LineHits found =
-      find_hits({model_.geometry, accessor.pages(), coherence_, work}, way, true, limited, hits);
-  work_spent_ += work.units;
-  if (found.is_degraded)
-    note_missing_way(way, way.range().upper, 0, hits.size(), limited, accessor);
+  RunningQuery running(*this, PageAccess::Query::kClosestPoint, options.wait);
+  const LineHits found = find_hits(running.context(), way, true, limited, hits);
+  if (found.is_degraded) note_missing_way(way, way.range().upper, 0, hits.size(), limited, running);
   return found.found;
 }
 
@@ -77,26 +67,19 @@ FirstContact ProbeState::first_contact(const Sweep& sweep, const QueryOptions& o
   FirstContact answer;
   if (!is_valid(sweep.from, options) || !is_valid(sweep)) return answer;
   const QueryOptions limited = with_defaults(options);
-  octree::TraversalStats work;
-  PageAccessor accessor(reader_, options.wait, model_.query_terms);
-  begin_trace(PageAccess::Query::kClosestPoint, options.wait, accessor);
+  RunningQuery running(*this, PageAccess::Query::kClosestPoint, options.wait);
   bool is_degraded = false;
-  answer = query::first_contact({model_.geometry, accessor.pages(), coherence_, work}, sweep,
-                                limited, is_degraded);
-  work_spent_ += work.units;
+  answer = query::first_contact(running.context(), sweep, limited, is_degraded);
   if (is_degraded)
-    note_missing_way(ModelLine(model_.geometry.scale, sweep), 1, sweep.radius, 1, limited,
-                     accessor);
+    note_missing_way(ModelLine(model_.geometry.scale, sweep), 1, sweep.radius, 1, limited, running);
   return answer;
 }
 
 void ProbeState::fetch_way(const Sweep& way, std::uint64_t count, const QueryOptions& options,
                            const std::atomic<bool>& stop) noexcept {
   if (!is_valid(way.from, options) || !is_valid(way)) return;
-  PageAccessor accessor(reader_, options.wait, model_.fetcher_terms, &stop);
-  begin_trace(PageAccess::Query::kFetch, options.wait, accessor);
-  octree::TraversalStats work;
-  const QueryContext context{model_.geometry, accessor.pages(), coherence_, work};
+  RunningQuery running(*this, PageAccess::Query::kFetch, options.wait, &stop);
+  const QueryContext context = running.context();
   if (count == 1) {
     bool is_degraded = false;
     query::first_contact(context, way, options, is_degraded);
