@@ -189,7 +189,10 @@ Result<void> ModelState::start_threads(const OpenOptions& options, const ModelSe
     if (!reader) return reader.error();
     probes.push_back(std::make_unique<QueryingFetchProbe>(*serving_, std::move(*reader)));
   }
-  auto fetchers = FetchThreads::start(cache(), serving_->arena.fetch_requests, std::move(probes));
+  if (options.read_ahead && cache().holds_all_pages())
+    read_ahead_.emplace(pager_->opened(), pager_->file().header());
+  auto fetchers = FetchThreads::start(cache(), serving_->arena.fetch_requests, std::move(probes),
+                                      read_ahead_ ? &*read_ahead_ : nullptr);
   if (!fetchers) return fetchers.error();
   fetch_threads_ = std::move(*fetchers);
   return {};
@@ -260,6 +263,7 @@ Stats ModelState::stats() const noexcept {
   if (fetch_threads_) {
     stats.fetch_requests_served = fetch_threads_->fetch_requests_served();
     stats.pages_prefetched = fetch_threads_->pages_prefetched();
+    stats.pages_read_ahead = fetch_threads_->pages_read_ahead();
   }
   stats.layers = pager_->opened().layers;
   stats.frames = cache.frame_count;

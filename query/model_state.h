@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "query/serve/batch_threads.h"
 #include "query/serve/fetch_threads.h"
 #include "query/serve/pager.h"
+#include "query/serve/read_ahead.h"
 #include "query/serve/trace_clock.h"
 #include "query/serving_model.h"
 #include "storage/system/file_calls.h"
@@ -77,6 +79,7 @@ class ModelState {
   bool field_damaged_ = false;
   std::vector<std::unique_ptr<ProbeState>> batch_probes_;
   std::unique_ptr<BatchThreads> batch_threads_;
+  std::optional<ReadAhead> read_ahead_;
   std::unique_ptr<FetchThreads> fetch_threads_;
 };
 

@@ -125,6 +125,13 @@ std::uint32_t ProbeState::fetch_pages(const Vec3& query, const QueryOptions& opt
   return running.fetched();
 }
 
+bool ProbeState::fetch_page(std::uint32_t page, const std::atomic<bool>& stop) noexcept {
+  RunningQuery running(*this, PageAccess::Query::kPrefetch, Wait::kForPages, &stop);
+  const octree::PageReader& pages = running.pages();
+  if (!pages.peek(pages.context, page)) pages.page(pages.context, page);
+  return running.fetched() > 0;
+}
+
 Found ProbeState::find_triangles(const TriangleSetQuery& query, std::span<ClosestPoint> found,
                                  const QueryOptions& options) noexcept {
   if (!is_valid(query.centre, options) || !(query.radius >= 0)) return {};

@@ -94,6 +94,8 @@ class ProbeState {
   /// See FetchProbe::fetch_way.
   void fetch_way(const Sweep& way, std::uint64_t count, const QueryOptions& options,
                  const std::atomic<bool>& stop) noexcept;
+  /// See FetchProbe::fetch_page.
+  bool fetch_page(std::uint32_t page, const std::atomic<bool>& stop) noexcept;
   /// See FetchProbe::read_awaited_page.
   bool read_awaited_page() noexcept {
     if (trace_) {
@@ -175,6 +177,7 @@ class ProbeState::RunningQuery {
   QueryContext context() noexcept {
     return {probe_.model_.geometry, accessor_.pages(), probe_.coherence_, work_};
   }
+  const octree::PageReader& pages() const noexcept { return accessor_.pages(); }
   std::uint64_t units() const noexcept { return work_.units; }
   std::uint32_t fetched() const noexcept { return accessor_.fetched(); }
   bool missed() const noexcept { return accessor_.missed(); }
@@ -224,6 +227,9 @@ class QueryingFetchProbe final : public FetchProbe {
   void fetch_way(const Sweep& way, std::uint64_t count, const QueryOptions& options,
                  const std::atomic<bool>& stop) noexcept override {
     probe_->fetch_way(way, count, options, stop);
+  }
+  bool fetch_page(std::uint32_t page, const std::atomic<bool>& stop) noexcept override {
+    return probe_->fetch_page(page, stop);
   }
   bool read_awaited_page() noexcept override { return probe_->read_awaited_page(); }
 

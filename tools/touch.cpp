@@ -91,6 +91,7 @@ struct Outcome {
 Result<Outcome> run_real(const TouchArguments& arguments, std::span<const Vec3> path,
                          std::optional<TraceWriter>& writer) {
   OpenOptions options = options_of(arguments);
+  options.read_ahead = arguments.read_ahead;
   if (writer) {
     options.page_trace_capacity = DrainThread::kTraceWords;
     const auto budget = budget_with_trace(arguments.file, options);
@@ -254,6 +255,8 @@ void add_touch(CLI::App& app, Console& console, std::function<int()>& action) {
   subcommand.flag("--no-io-uring", options->no_io_uring,
                   "Do not wait for pages by io_uring but poll for them: for systems that end a "
                   "process that tries");
+  subcommand.flag("--read-ahead", options->read_ahead,
+                  "Read all pages while there is nothing else to do, if memory holds all of them");
   subcommand.flag("--json", options->json, "Report as one JSON object");
   subcommand.on_given([options, is_ball, &console, &action]() -> std::string {
     if (*is_ball != (options->radius > 0))
@@ -261,8 +264,8 @@ void add_touch(CLI::App& app, Console& console, std::function<int()>& action) {
                       : "--radius is that of a ball; add --tool sphere";
     if (options->trace == "-" || options->ticks == "-")
       return "--ticks and --trace need files; standard output is for the report";
-    if (options->is_deterministic && (options->cold || options->no_io_uring))
-      return "--deterministic reads no real disk; omit --cold and --no-io-uring";
+    if (options->is_deterministic && (options->cold || options->no_io_uring || options->read_ahead))
+      return "--deterministic reads no real disk; omit --cold, --no-io-uring and --read-ahead";
     if (options->latency_is_given && !options->is_deterministic)
       return "--latency is that of a simulated disk; add --deterministic";
     if (options->seconds == 0 || options->rate_hz == 0)

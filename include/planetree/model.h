@@ -47,6 +47,10 @@ struct OpenOptions {
   /// block all signals. Each fetch thread serves a fixed subset of the probes and reads one page at
   /// a time.
   unsigned fetch_threads = 1;
+  /// Whether fetch threads that have nothing else to do read all pages of the opened layers, in the
+  /// order of the file. They do so only if memory holds all of them, so that none is ever evicted.
+  /// Stats::pages_read_ahead counts the pages.
+  bool read_ahead = false;
   /// Number of threads that answer one batch (Probe::closest_points and contains over spans),
   /// including the caller's; 1 to kMaxBatchThreads. If it is above 1, open creates a probe for
   /// each, which does not count towards `max_probes`. The threads serve one batch at a time. A

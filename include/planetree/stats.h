@@ -91,6 +91,7 @@ struct Stats {
   std::uint64_t fetch_requests = 0;
   std::uint64_t fetch_requests_served = 0;  ///< fetch requests that a fetch thread has served
   std::uint64_t pages_prefetched = 0;       ///< pages read because of Probe::motion
+  std::uint64_t pages_read_ahead = 0;       ///< pages read because of OpenOptions::read_ahead
   std::uint64_t page_trace_dropped = 0;     ///< records lost because a page trace was full
   std::uint32_t layers = kDistanceLayer;    ///< layers that are open; see OpenOptions::layers
   std::uint64_t frames = 0;                 ///< frames: maximum number of pages in memory

@@ -28,13 +28,14 @@ QueryOptions blocking_options(std::uint64_t parts, std::uint64_t side_rule) {
 
 FetchWorker::FetchWorker(std::span<FetchRequests> requests, std::unique_ptr<FetchProbe> probe,
                          std::size_t first, std::size_t step, Clock clock,
-                         const std::atomic<bool>& stop)
+                         const std::atomic<bool>& stop, ReadAhead* read_ahead)
     : requests_(requests),
       probe_(std::move(probe)),
       first_(first),
       step_(step),
       clock_(clock),
       stop_(stop),
+      read_ahead_(read_ahead),
       progress_(requests.size()),
       next_index_(first) {}
 
@@ -54,8 +55,8 @@ FetchWorker::Action FetchWorker::work() noexcept {
   if (serve_any_probe(&FetchWorker::serve_request)) return Action::kServedRequest;
   awaited_page_was_last_ = probe_->read_awaited_page();
   if (awaited_page_was_last_) return Action::kReadAwaitedPage;
-  return serve_any_probe(&FetchWorker::prefetch_position) ? Action::kPrefetchedPosition
-                                                          : Action::kNone;
+  if (serve_any_probe(&FetchWorker::prefetch_position)) return Action::kPrefetchedPosition;
+  return read_next_page() ? Action::kReadAhead : Action::kNone;
 }
 
 bool FetchWorker::serve_request(std::size_t index) noexcept {
@@ -93,6 +94,21 @@ bool FetchWorker::prefetch_position(std::size_t index) noexcept {
       ahead.searches_side ? FetchReason::kMotionOfSides : FetchReason::kMotion, stop_);
   pages_prefetched_.fetch_add(pages, std::memory_order_relaxed);
   return true;
+}
+
+// Takes a few pages, since some are resident already. Requests need not wait for more than one
+// read.
+bool FetchWorker::read_next_page() noexcept {
+  constexpr unsigned kPages = 64;
+  std::uint32_t page = ReadAhead::kNoPage;
+  for (unsigned left = read_ahead_ ? kPages : 0; left > 0; --left) {
+    page = read_ahead_->take();
+    if (page == ReadAhead::kNoPage) return false;
+    if (!probe_->fetch_page(page, stop_)) continue;
+    pages_read_ahead_.fetch_add(1, std::memory_order_relaxed);
+    break;
+  }
+  return page != ReadAhead::kNoPage;
 }
 
 // Updates the maximum time of recent requests. It decays towards the time of each later request by
@@ -155,7 +171,7 @@ void FetchThreads::run(FetchWorker& worker) noexcept {
 
 Result<std::unique_ptr<FetchThreads>> FetchThreads::start(
     cache::PageCache& cache, std::span<FetchRequests> requests,
-    std::vector<std::unique_ptr<FetchProbe>> probes) {
+    std::vector<std::unique_ptr<FetchProbe>> probes, ReadAhead* read_ahead) {
   const std::size_t count = probes.size();
   const auto refused = [count] {
     return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
@@ -166,7 +182,7 @@ Result<std::unique_ptr<FetchThreads>> FetchThreads::start(
     std::unique_ptr<FetchThreads> threads(new FetchThreads(cache));
     for (std::size_t i = 0; i < count; ++i)
       threads->workers_.push_back(std::make_unique<FetchWorker>(
-          requests, std::move(probes[i]), i, count, &time_now, threads->stopping_));
+          requests, std::move(probes[i]), i, count, &time_now, threads->stopping_, read_ahead));
     for (const auto& worker : threads->workers_)
       threads->threads_.emplace_back(
           [&threads = *threads, &worker = *worker] { threads.run(worker); });
@@ -181,6 +197,12 @@ Result<std::unique_ptr<FetchThreads>> FetchThreads::start(
 std::uint64_t FetchThreads::pages_prefetched() const noexcept {
   std::uint64_t pages = 0;
   for (const auto& worker : workers_) pages += worker->pages_prefetched();
+  return pages;
+}
+
+std::uint64_t FetchThreads::pages_read_ahead() const noexcept {
+  std::uint64_t pages = 0;
+  for (const auto& worker : workers_) pages += worker->pages_read_ahead();
   return pages;
 }
 

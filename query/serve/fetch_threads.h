@@ -15,6 +15,7 @@
 #include "planetree/types.h"
 #include "query/serve/fetch_requests.h"
 #include "query/serve/motion_prefetch.h"
+#include "query/serve/read_ahead.h"
 
 namespace planetree::query {
 
@@ -53,13 +54,18 @@ class FetchProbe {
   /// options, stop  as above
   virtual void fetch_way(const Sweep& way, std::uint64_t count, const QueryOptions& options,
                          const std::atomic<bool>& stop) noexcept = 0;
+  /// Makes a page resident. Returns whether it was not and is now.
+  ///
+  /// stop  as above
+  virtual bool fetch_page(std::uint32_t page, const std::atomic<bool>& stop) noexcept = 0;
   /// Reads one page that a blocking query waits for. Returns false if there is none.
   virtual bool read_awaited_page() noexcept = 0;
 };
 
 /// The work of one fetch thread. It serves fetch requests by running the query again with a probe
 /// of its own that waits for pages. It prefetches for moving probes in the same way. It also reads
-/// the pages that blocking queries wait for. One thread at a time may use it.
+/// the pages that blocking queries wait for, and all other pages if it is told to. One thread at a
+/// time may use it.
 class FetchWorker {
  public:
   using Seconds = MotionPrefetch::Seconds;
@@ -72,17 +78,28 @@ class FetchWorker {
   /// first, step  serves the probes with reader index first, first + step, ...
   /// clock        measures the time of fetches, which decides how far ahead to prefetch
   /// stop         once true, work() ends early; must outlive this
+  /// read_ahead   pages to read while there is nothing else to do; must outlive this. Null: none
   FetchWorker(std::span<FetchRequests> requests, std::unique_ptr<FetchProbe> probe,
-              std::size_t first, std::size_t step, Clock clock, const std::atomic<bool>& stop);
+              std::size_t first, std::size_t step, Clock clock, const std::atomic<bool>& stop,
+              ReadAhead* read_ahead = nullptr);
 
-  enum class Action : std::uint8_t { kNone, kServedRequest, kPrefetchedPosition, kReadAwaitedPage };
+  enum class Action : std::uint8_t {
+    kNone,
+    kServedRequest,
+    kPrefetchedPosition,
+    kReadAwaitedPage,
+    kReadAhead
+  };
   /// Takes one action and returns which. Pages that blocking queries wait for and fetch requests
-  /// come before prefetching. If there are both, they alternate.
+  /// come before prefetching. If there are both, they alternate. Reading ahead comes last.
   Action work() noexcept;
 
-  /// Number of pages read for moving probes so far. Any thread may call it.
+  /// Number of pages read for moving probes, and read ahead, so far. Any thread may call these.
   std::uint64_t pages_prefetched() const noexcept {
     return pages_prefetched_.load(std::memory_order_relaxed);
+  }
+  std::uint64_t pages_read_ahead() const noexcept {
+    return pages_read_ahead_.load(std::memory_order_relaxed);
   }
 
  private:
@@ -95,6 +112,7 @@ class FetchWorker {
 
   bool serve_request(std::size_t index) noexcept;
   bool prefetch_position(std::size_t index) noexcept;
+  bool read_next_page() noexcept;
   void note_fetch_time(Seconds taken) noexcept;
 
   const std::span<FetchRequests> requests_;
@@ -102,11 +120,13 @@ class FetchWorker {
   const std::size_t first_, step_;
   const Clock clock_;
   const std::atomic<bool>& stop_;
+  ReadAhead* const read_ahead_;     // null: none
   std::vector<Progress> progress_;  // indexed by reader
   std::size_t next_index_ = 0;      // probe served next; they take turns
   bool awaited_page_was_last_ = false;
   Seconds slowest_fetch_{0};  // decaying maximum, see note_fetch_time()
   std::atomic<std::uint64_t> pages_prefetched_{0};
+  std::atomic<std::uint64_t> pages_read_ahead_{0};
 };
 
 /// A model's fetch threads, with one FetchWorker each. A blocking query wakes them. A real-time
@@ -119,12 +139,13 @@ class FetchThreads {
 
   /// Starts one thread for each of `probes`.
   ///
-  /// cache     must outlive this
-  /// requests  fetch requests of all probes, indexed by reader; must outlive this
-  /// errors    kNoMemory
+  /// cache       must outlive this
+  /// requests    fetch requests of all probes, indexed by reader; must outlive this
+  /// read_ahead  pages to read while there is nothing else to do; must outlive this. Null: none
+  /// errors      kNoMemory
   static Result<std::unique_ptr<FetchThreads>> start(
       cache::PageCache& cache, std::span<FetchRequests> requests,
-      std::vector<std::unique_ptr<FetchProbe>> probes);
+      std::vector<std::unique_ptr<FetchProbe>> probes, ReadAhead* read_ahead);
   /// Stops the threads. Waits for the pages that they are reading.
   ~FetchThreads();
 
@@ -136,6 +157,7 @@ class FetchThreads {
     return requests_served_.load(std::memory_order_relaxed);
   }
   std::uint64_t pages_prefetched() const noexcept;
+  std::uint64_t pages_read_ahead() const noexcept;
 
  private:
   explicit FetchThreads(cache::PageCache& cache) : cache_(cache) {}

@@ -94,6 +94,7 @@ nlohmann::ordered_json session_report(const TouchArguments& arguments, const Tou
           {"fetch_requests_served", stats.fetch_requests_served},
           {"fetch_requests", stats.fetch_requests},
           {"pages_prefetched", stats.pages_prefetched},
+          {"pages_read_ahead", stats.pages_read_ahead},
           {"page_trace_dropped", stats.page_trace_dropped},
           {"frames", stats.frames},
           {"budget_bytes", stats.budget_bytes - trace_bytes},

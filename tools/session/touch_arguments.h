@@ -28,6 +28,7 @@ struct TouchArguments {
   bool force = false;                 ///< whether existing files may be replaced
   bool cold = false;                  ///< drop the file from the system's page cache first
   bool no_io_uring = false;
+  bool read_ahead = false;  ///< OpenOptions::read_ahead of the session
   bool json = false;
 };
 
