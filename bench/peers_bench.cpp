@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <iostream>
+#include <span>
 #include <vector>
 
 #include <fmt/format.h>
@@ -27,6 +28,7 @@ struct Options {
   std::vector<std::string> peers{"embree", "cgal"};
   std::vector<std::string> workloads;  // empty: all
   std::size_t queries = 20000, rounds = 5;
+  bool on_curve = false;  // points in the order of a Morton curve
 };
 
 // Pins to the last core, because the first one takes the system's interrupts.
@@ -56,7 +58,7 @@ bool use_only(const std::string& instructions) {
 
 // One contender: a part of the answer, computed by planetree or by a peer.
 struct NamedContender {
-  std::string who, what;  // `what`: "distance", "side" or "all parts"
+  std::string who, what;  // `what`: "distance", "side", "all parts", or distances in "a batch"
   Contender contender;
 };
 
@@ -64,22 +66,44 @@ struct NamedContender {
 // a query.
 double number(bool answer) { return static_cast<double>(static_cast<int>(answer)); }
 
+// Finds distances in batches on one thread.
+class Batch {
+ public:
+  explicit Batch(Probe& probe) : probe_(&probe) {}
+  double operator()(std::span<const Vec3> queries) {
+    answers_.resize(queries.size());
+    probe_->closest_points(queries, answers_, {.parts = kDistance});
+    double sum = 0;
+    for (const ClosestPoint& answer : answers_) sum += answer.distance;
+    return sum;
+  }
+
+ private:
+  Probe* probe_;
+  std::vector<ClosestPoint> answers_;
+};
+
 std::vector<NamedContender> contenders_of(Probe& probe, std::vector<BuiltPeer>& peers,
                                           bool watertight) {
   std::vector<NamedContender> all;
-  all.push_back({"planetree", "distance", [&](const Vec3& query) {
+  all.push_back({"planetree", "distance", one_by_one([&](const Vec3& query) {
                    return probe.closest_point(query, {.parts = kDistance}).distance;
-                 }});
-  all.push_back({"planetree", "all parts",
-                 [&](const Vec3& query) { return probe.closest_point(query).distance; }});
-  all.push_back({"planetree", "side", [&](const Vec3& query) {
+                 })});
+  all.push_back({"planetree", "all parts", one_by_one([&](const Vec3& query) {
+                   return probe.closest_point(query).distance;
+                 })});
+  all.push_back({"planetree", "side", one_by_one([&](const Vec3& query) {
                    return number(probe.contains(query).side != Side::kOutside);
-                 }});
+                 })});
+  all.push_back({"planetree", "a batch", Batch(probe)});
   for (BuiltPeer& built : peers) {
     Peer& peer = *built.peer;
-    all.push_back({peer.name(), "distance", [&](const Vec3& q) { return peer.distance(q); }});
+    all.push_back({peer.name(), "distance",
+                   one_by_one([&peer](const Vec3& query) { return peer.distance(query); })});
     if (peer.tells_sides() && watertight)
-      all.push_back({peer.name(), "side", [&](const Vec3& q) { return number(peer.inside(q)); }});
+      all.push_back({peer.name(), "side", one_by_one([&peer](const Vec3& query) {
+                       return number(peer.inside(query));
+                     })});
   }
   return all;
 }
@@ -94,8 +118,9 @@ class Comparison {
         surface_([&](const Vec3& query) { return probe.closest_point(query); }) {}
 
   nlohmann::json run(Workload workload) {
-    const std::vector<Vec3> queries =
-        make_queries(workload, {info_.box_lower, info_.box_upper}, surface_, options_.queries, 1);
+    const Box box{info_.box_lower, info_.box_upper};
+    std::vector<Vec3> queries = make_queries(workload, box, surface_, options_.queries, 1);
+    if (options_.on_curve) sort_on_curve(box, queries);
     std::vector<Contender> contenders;
     for (const NamedContender& named : named_contenders_) contenders.push_back(named.contender);
     const std::vector<Timing> timings = take_turns(contenders, queries, options_.rounds);
@@ -201,6 +226,7 @@ int main(int argc, char** argv) {
   app.add_option("--workloads", options.workloads, "uniform, near, path, contact, teleport, medial")
       ->delimiter(',');
   app.add_option("--queries", options.queries, "Points a workload")->capture_default_str();
+  app.add_flag("--on-curve", options.on_curve, "Points in the order of a Morton curve");
   app.add_option("--rounds", options.rounds, "Rounds in turn; their median counts")
       ->capture_default_str();
   app.add_option("--instructions", options.instructions,

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "bench/workloads.h"
-#include "octree/geometry/octcode.h"
 #include "planetree/planetree.h"
 
 namespace planetree::bench {
@@ -133,21 +132,6 @@ double query_batch(Probe& probe, const std::vector<Vec3>& points,
   double sum = 0;
   for (const ClosestPoint& answer : answers) sum += answer.distance;
   return sum;
-}
-
-void sort_on_curve(const Box& box, std::vector<Vec3>& points) {
-  const auto cell = [](double at, double lower, double upper) {
-    const double share = (at - lower) / (upper - lower);
-    return static_cast<std::uint32_t>(std::clamp(share, 0.0, 1.0) * ((1 << octree::kLevels) - 1));
-  };
-  std::sort(points.begin(), points.end(), [&](const Vec3& a, const Vec3& b) {
-    const auto code = [&](const Vec3& p) {
-      return octree::morton_code(cell(p.x, box.lower.x, box.upper.x),
-                                 cell(p.y, box.lower.y, box.upper.y),
-                                 cell(p.z, box.lower.z, box.upper.z));
-    };
-    return code(a) < code(b);
-  });
 }
 
 int run(const Arguments& arguments) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <ctime>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "planetree/types.h"
@@ -33,14 +34,23 @@ inline double processor_ns() {
   return static_cast<double>(time.tv_sec) * 1e9 + static_cast<double>(time.tv_nsec);
 }
 
-/// Answers one query and returns a number that depends on the answer.
-using Contender = std::function<double(const Vec3&)>;
+/// Answers queries and returns a sum that depends on the answers.
+using Contender = std::function<double(std::span<const Vec3>)>;
+
+/// Returns the contender that answers one query after the other.
+template <class Answer>
+Contender one_by_one(Answer answer) {
+  return [answer](std::span<const Vec3> queries) {
+    double sum = 0;
+    for (const Vec3& query : queries) sum += answer(query);
+    return sum;
+  };
+}
 
 /// Runs a contender over all queries. Returns nanoseconds a query; `sum` is that of the answers.
 inline double time_once(const Contender& contender, const std::vector<Vec3>& queries, double& sum) {
-  sum = 0;
   const double start = processor_ns();
-  for (const Vec3& query : queries) sum += contender(query);
+  sum = contender(queries);
   return (processor_ns() - start) / static_cast<double>(queries.size());
 }
 
@@ -70,7 +80,7 @@ inline Latency latency_of(const Contender& contender, const std::vector<Vec3>& q
   double sum = 0;
   for (const Vec3& query : queries) {
     const auto start = Clock::now();
-    sum += contender(query);
+    sum += contender(std::span(&query, 1));
     times.push_back(std::chrono::duration<double, std::nano>(Clock::now() - start).count());
   }
   volatile double kept = sum;

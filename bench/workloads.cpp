@@ -4,6 +4,8 @@
 #include <cmath>
 #include <random>
 
+#include "octree/geometry/octcode.h"
+
 namespace planetree::bench {
 namespace {
 
@@ -117,6 +119,21 @@ std::vector<Vec3> make_queries(Workload workload, const Box& box, const SurfaceO
             : workload == Workload::kMedial ? maker.medial()
                                             : maker.uniform();
   return queries;
+}
+
+void sort_on_curve(const Box& box, std::vector<Vec3>& points) {
+  const auto cell = [](double at, double lower, double upper) {
+    const double share = (at - lower) / (upper - lower);
+    return static_cast<std::uint32_t>(std::clamp(share, 0.0, 1.0) * ((1 << octree::kLevels) - 1));
+  };
+  std::sort(points.begin(), points.end(), [&](const Vec3& a, const Vec3& b) {
+    const auto code = [&](const Vec3& p) {
+      return octree::morton_code(cell(p.x, box.lower.x, box.upper.x),
+                                 cell(p.y, box.lower.y, box.upper.y),
+                                 cell(p.z, box.lower.z, box.upper.z));
+    };
+    return code(a) < code(b);
+  });
 }
 
 }  // namespace planetree::bench

@@ -39,4 +39,7 @@ std::string name_of(Workload workload);
 std::vector<Vec3> make_queries(Workload workload, const Box& box, const SurfaceOf& surface,
                                std::size_t count, std::uint64_t seed);
 
+/// Sorts points along a Morton curve through a box.
+void sort_on_curve(const Box& box, std::vector<Vec3>& points);
+
 }  // namespace planetree::bench
