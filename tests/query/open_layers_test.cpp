@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 constexpr std::array<std::uint32_t, 5> kChoices = {0, kDistanceLayer, kDistanceLayer | kSideLayer,
                                                    kDistanceLayer | kFieldLayer, kAllLayers};
 
-FetchWorker::Seconds still_time() { return FetchWorker::Seconds(1); }
+FetchWorker::Seconds standing_time() { return FetchWorker::Seconds(1); }
 
 // A sphere, one with a hole, and a sheet.
 class OpenLayersOfModels : public testing::Test {
@@ -170,7 +170,7 @@ TEST_F(OpenLayersOfModels, ReadNoSidePage) {
     const Model model = open(name, kFieldLayer);
     const ModelState& state = ModelState::of(model);
     const std::atomic<bool> never{false};
-    FetchWorker worker = fetch_worker(state, &still_time, never);
+    FetchWorker worker = fetch_worker(state, &standing_time, never);
     Probe probe = make_probe(model), moving = make_probe(model);
     const auto queries = random_queries(200, -1.2, 1.2);
     for (const Vec3& query : queries) {
@@ -201,7 +201,7 @@ TEST_F(OpenLayersOfModels, TraceNoSidePage) {
       ModelState::open_model(*folder_ / "open.ptree", options, {storage::FileCalls::real(), false});
   ASSERT_TRUE(model);
   const std::atomic<bool> never{false};
-  FetchWorker worker = fetch_worker(ModelState::of(*model), &still_time, never);
+  FetchWorker worker = fetch_worker(ModelState::of(*model), &standing_time, never);
   Probe probe = make_probe(*model);
   std::size_t count = 0;
   for (const Vec3& query : random_queries(200, -1.2, 1.2)) {
