@@ -13,7 +13,8 @@ namespace planetree {
 /// The points origin + t * direction with t_min <= t <= t_max. The direction may have any length
 /// but zero; it is taken as it is, without rounding. (Components smaller than about 2^-1000 times
 /// the largest are rounded, and so are coordinates of the origin smaller than 2^-1022 times the
-/// size of the model.)
+/// size of the model. Hits are told apart from the ends of the ray if they are 2^-1020 times that
+/// size away.)
 struct Ray {
   Vec3 origin;                                             ///< model units
   Vec3 direction;                                          ///< model units for each unit of t

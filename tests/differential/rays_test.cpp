@@ -67,10 +67,17 @@ void expect_hit(const Ray& ray, const LineMeeting& truth, const RayHit& hit) {
   EXPECT_EQ(hit.entering, truth.entering);
 }
 
+// The least step of `t` that the library resolves: 2^-1020 in the model frame.
+Rational least_step(const BuiltModel& model, const Ray& ray) {
+  const auto& [x, y, z] = ray.direction;
+  const double largest = std::max({std::fabs(x), std::fabs(y), std::fabs(z)});
+  return Rational(std::ldexp(1.0, -1020 - model.scale_exponent())) / Rational(largest);
+}
+
 // Whether a triangle that the line passes through must be among the hits: not at an end of the
 // range, where `t` is rounded.
-bool is_within(const Ray& ray, const Rational& t) {
-  const Rational margin = abs(t) * Rational(1e-14);
+bool is_within(const Ray& ray, const Rational& t, const Rational& least_step) {
+  const Rational margin = abs(t) * Rational(1e-14) + least_step;
   return (ray.t_min == 0 ? t >= 0 : t > Rational(ray.t_min) + margin) &&
          (ray.t_max == kEndless || t < Rational(ray.t_max) - margin);
 }
@@ -97,6 +104,7 @@ void expect_hits(BuiltModel& model, const Ray& ray, std::size_t& hits) {
     }
   }
   const Vec3 origin = as_in_frame(model, ray.origin);
+  const Rational step = least_step(model, ray);
   const auto direction = exact_difference(as_given(ray), {0, 0, 0});
   for (std::size_t i = 0; i < model.triangles().size(); ++i) {
     const LineMeeting truth = meet(origin, direction, model.triangles()[i]);
@@ -104,7 +112,7 @@ void expect_hits(BuiltModel& model, const Ray& ray, std::size_t& hits) {
     if (hit != by_triangle.end()) {
       expect_hit(ray, truth, *hit->second);
     } else if (truth.meeting == Meeting::kPasses) {
-      EXPECT_FALSE(is_within(ray, truth.t)) << "missed " << i << ' ' << double(truth.t);
+      EXPECT_FALSE(is_within(ray, truth.t, step)) << "missed " << i << ' ' << double(truth.t);
     }
   }
   const RayHit first = model.probe().first_hit(ray);
