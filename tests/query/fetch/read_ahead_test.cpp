@@ -23,7 +23,7 @@
 namespace planetree::query {
 namespace {
 
-constexpr QueryOptions kHastily{.wait = Wait::kNever};
+constexpr QueryOptions kWithoutWaiting{.wait = Wait::kNever};
 
 // A sphere with a hole, so that there are pages of all kinds.
 class ReadingAhead : public testing::Test {
@@ -93,7 +93,7 @@ TEST_F(ReadingAhead, LeavesNoPageToMiss) {
       const std::uint64_t used = used_pages(layers).size();
       ASSERT_TRUE(eventually([&] { return model.stats().pages_read == used; }));
       EXPECT_GT(model.stats().pages_read_ahead, used / 2);
-      QueryOptions options = kHastily;
+      QueryOptions options = kWithoutWaiting;
       options.parts = layers == kAllLayers ? kAllParts : std::uint32_t{kDistance};
       Probe probe = make_probe(model);
       const Model waiting = open({.layers = layers});
@@ -117,7 +117,7 @@ TEST_F(ReadingAhead, LeavesAloneWhatDoesNotFit) {
   Probe probe = make_probe(model);
   // A thread that serves these requests has nothing else to do in between.
   for (const Vec3& query : random_queries(20, -1.2, 1.2)) {
-    (void)probe.closest_point(query, kHastily);
+    (void)probe.closest_point(query, kWithoutWaiting);
     EXPECT_TRUE(eventually([&] {
       const Stats stats = model.stats();
       return stats.fetch_requests_served == stats.fetch_requests;
