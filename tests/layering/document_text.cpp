@@ -125,7 +125,7 @@ KnownNames read_known_names(const fs::path& root) {
   for_each_path(root, [&](const std::string& path) {
     known.paths.insert(path);
     const bool is_script = path.find('.') == std::string::npos && fs::is_regular_file(root / path);
-    if (is_script || ends_with_any(path, {".h", ".cpp", ".cmake", ".txt", ".json"}))
+    if (is_script || ends_with_any(path, {".h", ".cpp", ".py", ".cmake", ".txt", ".json"}))
       add_words(read_text(root / path), known.words);
   });
   return known;

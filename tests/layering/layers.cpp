@@ -238,6 +238,7 @@ const std::vector<Layer>& layers() {
         "octree/geometry", "storage/system"},
        with_system({"CLI", "fmt", "nlohmann"})},
       {"examples", {}, {}, {}},
+      {"python", {}, {}, with_system({"pybind11"})},
       {"tests/public_api", {}, {}, {"gtest", "Eigen/Core"}},
   };
   return all;

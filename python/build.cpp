@@ -1,0 +1,173 @@
+#include "python/build.h"
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <thread>
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "planetree/build.h"
+#include "python/errors.h"
+#include "python/fields.h"
+
+namespace planetree::python {
+namespace {
+
+namespace py = pybind11;
+
+// A build on a thread of its own. The caller's thread meanwhile handles signals and tells progress:
+// Python does neither on other threads.
+class RunningBuild {
+ public:
+  RunningBuild(const BuildInput& input, const std::filesystem::path& output, BuildOptions options)
+      : thread_([this, &input, &output, options = std::move(options)]() mutable {
+          options.cancel = &cancel_;
+          options.on_progress = [this](BuildPhase phase, std::uint64_t done, std::uint64_t total) {
+            const std::lock_guard lock(mutex_);
+            last_ = {phase, done, total};
+            return true;
+          };
+          options.on_failure = [this](const std::filesystem::path& path) { failed_ = path; };
+          Result<BuildReport> report = build(input, output, options);
+          const std::lock_guard lock(mutex_);
+          report_.emplace(std::move(report));
+          ended_.notify_one();
+        }) {}
+  ~RunningBuild() {
+    cancel_.store(true, std::memory_order_relaxed);
+    const py::gil_scoped_release unlocked;
+    thread_.join();
+  }
+  RunningBuild(const RunningBuild&) = delete;
+  RunningBuild& operator=(const RunningBuild&) = delete;
+
+  // Returns the report. Throws what a signal or the progress function raises.
+  BuildReport wait(const py::object& progress) {
+    while (!has_ended_soon()) {
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      tell(progress);
+    }
+    if (*report_) return **report_;
+    throw Failure{report_->error(), failed_};
+  }
+
+ private:
+  struct Progress {
+    BuildPhase phase = BuildPhase::kReading;
+    std::uint64_t done = 0, total = 0;
+  };
+
+  bool has_ended_soon() {
+    const py::gil_scoped_release unlocked;
+    std::unique_lock lock(mutex_);
+    return ended_.wait_for(lock, std::chrono::milliseconds(50),
+                           [this] { return report_.has_value(); });
+  }
+  void tell(const py::object& progress) {
+    if (progress.is_none()) return;
+    Progress last;
+    {
+      const std::lock_guard lock(mutex_);
+      last = last_;
+    }
+    progress(name_of(last.phase), last.done, last.total);
+  }
+
+  std::mutex mutex_;
+  std::condition_variable ended_;
+  std::optional<Result<BuildReport>> report_;
+  Progress last_;
+  std::filesystem::path failed_;
+  std::atomic<bool> cancel_{false};
+  std::thread thread_;  // last: it uses the others
+};
+
+BuildOptions options_of(const py::dict& given) {
+  BuildOptions options;
+  const auto take = [&](const char* name, auto& to) {
+    if (given.contains(name)) to = py::cast<std::decay_t<decltype(to)>>(given[name]);
+  };
+  take("memory_bytes", options.memory_bytes);
+  take("threads", options.threads);
+  take("temp_directory", options.temp_directory);
+  take("page_bytes", options.page_bytes);
+  take("layers", options.layers);
+  take("resume", options.resume);
+  take("float64", options.float64);
+  take("strict", options.strict);
+  take("replace", options.replace);
+  if (given.contains("side"))
+    options.side = static_cast<SideChoice>(py::cast<std::uint8_t>(given["side"]));
+  if (given.contains("box")) {
+    const auto box = py::cast<std::array<std::array<double, 3>, 2>>(given["box"]);
+    options.box = Box{{box[0][0], box[0][1], box[0][2]}, {box[1][0], box[1][1], box[1][2]}};
+  }
+  return options;
+}
+
+BuildReport build_file(const std::filesystem::path& mesh, const std::filesystem::path& output,
+                       const py::dict& options, const py::object& progress) {
+  const BuildInput input(mesh);
+  return RunningBuild(input, output, options_of(options)).wait(progress);
+}
+
+// Returns the rows of a C-contiguous array of shape (count, 3), without a copy.
+template <class Row>
+std::span<const Row> rows_of(const char* name, const py::array& array, char kind) {
+  const bool has_shape = array.ndim() == 2 && array.shape(1) == 3;
+  const bool is_flat = (array.flags() & py::detail::npy_api::NPY_ARRAY_C_CONTIGUOUS_) != 0 &&
+                       (array.flags() & py::detail::npy_api::NPY_ARRAY_ALIGNED_) != 0;
+  if (!has_shape || !is_flat || array.dtype().char_() != kind)
+    throw py::value_error("'" + std::string(name) +
+                          "' must be a C-contiguous array of shape (count, 3) and of type '" +
+                          kind + "'");
+  return {static_cast<const Row*>(array.data()), static_cast<std::size_t>(array.shape(0))};
+}
+
+BuildReport build_arrays(const py::array& vertices, const py::array& faces,
+                         const std::filesystem::path& output, const py::dict& options,
+                         const py::object& progress) {
+  const auto triangles = rows_of<TriangleVertices>("faces", faces, 'I');
+  const BuildInput input =
+      vertices.dtype().char_() == 'f'
+          ? BuildInput(rows_of<FloatVertex>("vertices", vertices, 'f'), triangles)
+          : BuildInput(rows_of<Vec3>("vertices", vertices, 'd'), triangles);
+  return RunningBuild(input, output, options_of(options)).wait(progress);
+}
+
+}  // namespace
+
+void define_build(py::module_& module) {
+  py::class_<BuildReport>(module, "BuildReport", "What a build made.")
+      .def_readonly("triangles", &BuildReport::triangles)
+      .def_readonly("input_triangles", &BuildReport::input_triangles)
+      .def_readonly("skipped", &BuildReport::skipped)
+      .def_readonly("first_skipped", &BuildReport::first_skipped)
+      .def_readonly("first_skipped_text", &BuildReport::first_skipped_text)
+      .def_readonly("notes", &BuildReport::notes)
+      .def_readonly("vertices", &BuildReport::vertices)
+      .def_readonly("strays", &BuildReport::strays)
+      .def_readonly("unbalanced_edges", &BuildReport::unbalanced_edges)
+      .def_property_readonly("watertight", &BuildReport::watertight)
+      .def_property_readonly("side_rule",
+                             [](const BuildReport& r) { return unsigned(r.side_rule); })
+      .def_readonly("openness", &BuildReport::openness)
+      .def_readonly("levels", &BuildReport::levels)
+      .def_readonly("layers", &BuildReport::layers)
+      .def_readonly("pages", &BuildReport::pages)
+      .def_readonly("file_bytes", &BuildReport::file_bytes)
+      .def_readonly("temporary_bytes", &BuildReport::temporary_bytes)
+      .def_readonly("peak_resident_bytes", &BuildReport::peak_resident_bytes);
+  module.def("build_file", &build_file);
+  module.def("build_arrays", &build_arrays);
+}
+
+}  // namespace planetree::python
