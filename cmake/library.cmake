@@ -6,6 +6,7 @@
 # tests/layering fails when a header of include/planetree is not named here.
 set(planetree_headers
   build.h
+  c.h
   contact.h
   eigen.h
   error.h
@@ -27,7 +28,7 @@ set(planetree_library_layers
   geometry page field traversal nearest winding mask
   builder_job builder_mesh_stream builder_mesh builder_sort builder_surface builder_tree
   builder_mask builder_field builder
-  query_file query_answer query_serve query query_shell)
+  query_file query_answer query_serve query query_shell c)
 
 function(planetree_add_library name)
   add_library(${name} ${ARGN})

@@ -237,6 +237,7 @@ const std::vector<Layer>& layers() {
         "octree/nearest", "octree/mask", "octree/traversal", "octree/field", "octree/page",
         "octree/geometry", "storage/system"},
        with_system({"CLI", "fmt", "nlohmann"})},
+      {"c", {}, {}, {}},
       {"examples", {}, {}, {}},
       {"python", {}, {}, with_system({"pybind11"})},
       {"tests/public_api", {}, {}, {"gtest", "Eigen/Core"}},
