@@ -36,8 +36,9 @@ void add_files(SubcommandOptions& subcommand, Options& options) {
       subcommand.path(
           "points", "POINTS", arguments.points,
           "Query points, in model units: text with one point a line (see --columns), PLY (its "
-          "vertices) or .f64 (raw little-endian float64 triples); - is standard input, text or "
-          "PLY. With --ray or --sweep: rays or sweeps, as text or .f64"),
+          "vertices), .npy (a NumPy array of three columns) or .f64 (raw little-endian float64 "
+          "triples); - is standard input, all but .f64. With --ray or --sweep: rays or sweeps, as "
+          "text, .npy or .f64"),
       "-");
   subcommand.text(
       "--columns", "X,Y,Z",

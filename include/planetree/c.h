@@ -25,12 +25,9 @@ extern "C" {
 #define PLANETREE_C_NOEXCEPT
 #endif
 
-/// Index of answers without a triangle.
-#define PLANETREE_NO_TRIANGLE UINT64_MAX
-/// Value of planetree_error::page and planetree_error::offset if they do not apply.
-#define PLANETREE_NOWHERE UINT64_MAX
-/// Value of planetree_query_options::max_work for no limit.
-#define PLANETREE_NO_LIMIT UINT32_MAX
+#define PLANETREE_NO_TRIANGLE UINT64_MAX  ///< index of answers without a triangle
+#define PLANETREE_NOWHERE UINT64_MAX      ///< planetree_error::page and offset: none
+#define PLANETREE_NO_LIMIT UINT32_MAX     ///< planetree_query_options::max_work: no limit
 
 /// An open file. Any number of threads may share one. It must outlive its probes.
 typedef struct planetree_model planetree_model;

@@ -37,7 +37,6 @@ constexpr Signature kSignatures[] = {
     {"<!DOCTYPE"sv, "HTML", kConvert},
     {"{"sv, "JSON", kConvert},
     {"["sv, "JSON", kConvert},
-    {"\x93NUMPY"sv, "a NumPy array", "save it by numpy.savetxt, or by tofile as float64 to .f64"},
     {"\x89HDF"sv, "an HDF5 file", kConvert},
     {"PAR1"sv, "a Parquet table", kConvert},
     {"\x89PTREE"sv, "a .ptree file", "give the list behind it"},
@@ -60,7 +59,7 @@ constexpr Signature kSignatures[] = {
 
 Error refusal(const RowShape& shape, const char* name, const char* remedy) {
   std::string convert = std::string("save its ") + shape.noun + "s as CSV";
-  convert += shape.kind == RowKind::kPoint ? ", PLY or .f64" : " or .f64";
+  convert += shape.kind == RowKind::kPoint ? ", PLY, .npy or .f64" : ", .npy or .f64";
   return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
                     "this is %s, not a list of %ss; %s", name, shape.noun,
                     *remedy == 0 ? convert.c_str() : remedy);
@@ -146,8 +145,8 @@ std::optional<Error> find_foreign_format(std::string_view front,
   if (binary != front.end())
     return make_error(
         ErrorCode::kBadInput, Error::kNowhere, static_cast<std::uint64_t>(binary - front.begin()),
-        "this is binary data, not text; give CSV, PLY, or raw float64 in a file named "
-        ".f64");
+        "this is binary data, not text; give CSV, PLY, .npy, or raw float64 in a file "
+        "named .f64");
   if (const char* const name = text_format(front)) return refusal(shape, name, kConvert);
   return std::nullopt;
 }

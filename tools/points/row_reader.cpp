@@ -10,6 +10,7 @@
 #include "octree/builder/mesh/stream/mesh_file.h"
 #include "tools/cli/input_file.h"
 #include "tools/points/foreign_format.h"
+#include "tools/points/npy_rows.h"
 #include "tools/points/ply_points.h"
 #include "tools/points/raw_rows.h"
 #include "tools/points/spooled_file.h"
@@ -28,8 +29,9 @@ std::optional<std::uint64_t> regular_size(const std::string& path) {
 }
 
 Error no_columns() {
-  return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
-                    "--columns is for text; the columns of PLY and .f64 are known, so omit it");
+  return make_error(
+      ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
+      "--columns is for text; the columns of PLY, .npy and .f64 are known, so omit it");
 }
 
 /// A PLY is read at several offsets, which a pipe does not allow.
@@ -41,7 +43,7 @@ Result<std::unique_ptr<PointReader>> open_ply(const std::string& path, InputFile
 
 Error not_in_ply(const RowShape& shape) {
   return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
-                    "this is PLY, which has no %ss; give them as CSV or .f64", shape.noun);
+                    "this is PLY, which has no %ss; give them as CSV, .npy or .f64", shape.noun);
 }
 
 template <class Row>
@@ -64,6 +66,12 @@ Result<std::unique_ptr<RowReader<Row>>> open_rows(const std::string& path,
     } else {
       return not_in_ply(shape);
     }
+  }
+  if (is_npy(*front)) {
+    if (!choice.empty()) return no_columns();
+    const Result<NpyHeader> header = parse_npy_header(*front, shape);
+    if (!header) return header.error();
+    return Reader(std::make_unique<NpyRows<Row>>(points_name(path), *std::move(file), *header));
   }
   const bool is_whole = front->size() < kFrontBytes;
   const auto size = is_whole ? std::optional<std::uint64_t>(front->size()) : regular_size(path);

@@ -49,7 +49,7 @@ TEST_F(Points, NameTheFormatTheyRefuse) {
       {utf16("x,y,z\n1,2,3\n", false), "UTF-16"},
       {utf16("x,y,z\n1,2,3\n", true), "UTF-16"},
       {"\x89PTREE\r\n\x1a\n", "a .ptree file"},
-      {"\x93NUMPY\1\0v\0{'descr'"s, "a NumPy array"},
+      {"\x93NUMPY\1\0v\0{'descr'"s, "the NumPy array"},
       {"{\"points\": [[1,2,3]]}\n", "JSON"},
       {"<?xml version=\"1.0\"?>\n<VTKFile>\n", "XML"},
       {"1,2,3\n4,5\x01,6\n", "this is binary data"}};
