@@ -70,7 +70,7 @@ Names with_system(Names others) {
 
 const std::vector<Layer>& layers() {
   static const std::vector<Layer> all = {
-      {"include/planetree", {}, {}, {"Eigen/Core"}},
+      {"include/planetree", {}, {}, {"Eigen/Core", "stdbool.h", "stddef.h", "stdint.h"}},
       {"storage/system", {}, {}, with_system({"liburing.h"})},
       {"storage/file", {"storage/system"}, {}, with_system({"lz4", "xxhash.h"})},
       {"storage/spill", {"storage/file", "storage/system"}, {}, with_system({})},
