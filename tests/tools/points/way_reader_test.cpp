@@ -130,9 +130,9 @@ TEST_F(WayFiles, RefuseRowsNamingTheLine) {
   EXPECT_EQ(rays("h.csv", "2\n1,2,3,4,5,6\n").error,
             "line 1 counts 2 rays, but there are fewer; correct or omit the count");
   EXPECT_EQ(rays("i.ply", "ply\nformat ascii 1.0\n").error,
-            "this is PLY, which has no rays; give them as CSV or .f64");
+            "this is PLY, which has no rays; give them as CSV, .npy or .f64");
   EXPECT_EQ(sweeps("j.csv", "{\"x0\": 1}\n").error,
-            "this is JSON, not a list of sweeps; save its sweeps as CSV or .f64");
+            "this is JSON, not a list of sweeps; save its sweeps as CSV, .npy or .f64");
 }
 
 template <class Numbers>
