@@ -41,7 +41,6 @@ function(planetree_describe_package component section text)
   set(CPACK_DEBIAN_${upper}_PACKAGE_NAME ${name} PARENT_SCOPE)
   set(CPACK_DEBIAN_${upper}_PACKAGE_SECTION ${section} PARENT_SCOPE)
   set(CPACK_DEBIAN_${upper}_PACKAGE_DEPENDS "${package_DEPENDS}" PARENT_SCOPE)
-  set(CPACK_DEBIAN_${upper}_PACKAGE_DESCRIPTION "${text}" PARENT_SCOPE)
   set(CPACK_COMPONENT_${upper}_DESCRIPTION "${text}" PARENT_SCOPE)
   install(FILES ${PROJECT_SOURCE_DIR}/cmake/packages/copyright
     DESTINATION share/doc/${name} COMPONENT ${component})

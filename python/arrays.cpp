@@ -22,9 +22,26 @@ bool is_contiguous(const py::array& array) {
 }
 
 py::dtype dtype_of(char kind) {
-  return kind == 'd'   ? py::dtype::of<double>()
-         : kind == 'L' ? py::dtype::of<std::uint64_t>()
-                       : py::dtype::of<std::uint8_t>();
+  switch (kind) {
+    case 'd':
+      return py::dtype::of<double>();
+    case 'f':
+      return py::dtype::of<float>();
+    case 'L':
+      return py::dtype::of<std::uint64_t>();
+    case 'I':
+      return py::dtype::of<std::uint32_t>();
+    default:
+      return py::dtype::of<std::uint8_t>();
+  }
+}
+
+void check_type(const std::string& name, const py::array& array, char kind) {
+  const py::dtype wanted = dtype_of(kind);
+  if (!array.dtype().equal(wanted))
+    refuse(name, "has numbers of the type " +
+                     py::cast<std::string>(py::str(py::handle(array.dtype()))) + "; it needs " +
+                     py::cast<std::string>(py::str(py::handle(wanted))));
 }
 
 }  // namespace
@@ -33,11 +50,7 @@ std::byte* checked_rows(const std::string& name, const py::handle& object, char 
                         std::size_t width, std::size_t count) {
   if (!py::isinstance<py::array>(object)) refuse(name, "is no array");
   auto array = py::reinterpret_borrow<py::array>(object);
-  const py::dtype wanted = dtype_of(kind);
-  if (!array.dtype().is(wanted) && !array.dtype().equal(wanted))
-    refuse(name, "has numbers of the type " +
-                     py::cast<std::string>(py::str(py::handle(array.dtype()))) + "; it needs " +
-                     py::cast<std::string>(py::str(py::handle(wanted))));
+  check_type(name, array, kind);
   if (!is_contiguous(array) || !is_aligned(array) || !array.writeable())
     refuse(name, "must be a C-contiguous, aligned and writable array");
   if (static_cast<std::size_t>(array.size()) != count * width)
@@ -48,8 +61,8 @@ std::byte* checked_rows(const std::string& name, const py::handle& object, char 
 
 Rows::Rows(const std::string& name, const py::array& array, std::size_t width)
     : first_(static_cast<const std::byte*>(array.data())), step_(0), count_(0) {
-  if (!array.dtype().equal(py::dtype::of<double>()) || !is_aligned(array))
-    refuse(name, "must have aligned numbers of the type float64");
+  check_type(name, array, 'd');
+  if (!is_aligned(array)) refuse(name, "must be an aligned array");
   const bool is_flat = width == 1 && array.ndim() == 1;
   const bool is_table = array.ndim() == 2 && array.shape(1) == static_cast<py::ssize_t>(width) &&
                         (width == 1 || array.strides(1) == sizeof(double));
@@ -59,11 +72,11 @@ Rows::Rows(const std::string& name, const py::array& array, std::size_t width)
   count_ = static_cast<std::size_t>(array.shape(0));
 }
 
-std::span<const Vec3> points_of(const std::string& name, const py::array& array) {
-  static_assert(sizeof(Vec3) == 3 * sizeof(double));
-  const Rows rows(name, array, 3);
-  if (!is_contiguous(array)) refuse(name, "must be C-contiguous");
-  return {reinterpret_cast<const Vec3*>(array.data()), rows.count()};
+void check_triples(const std::string& name, const py::array& array, char kind) {
+  check_type(name, array, kind);
+  if (array.ndim() != 2 || array.shape(1) != 3) refuse(name, "must have the shape (count, 3)");
+  if (!is_contiguous(array) || !is_aligned(array))
+    refuse(name, "must be a C-contiguous and aligned array");
 }
 
 void check_count(const std::string& name, std::size_t count, std::size_t wanted) {

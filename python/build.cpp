@@ -16,7 +16,8 @@
 
 #include "planetree/build.h"
 #include "python/errors.h"
-#include "python/fields.h"
+#include "python/inputs.h"
+#include "python/options.h"
 
 namespace planetree::python {
 namespace {
@@ -90,22 +91,24 @@ class RunningBuild {
   std::thread thread_;  // last: it uses the others
 };
 
+// The package gives a SideRule, whose values are those of the choice.
+static_assert(static_cast<int>(SideChoice::kAuto) == static_cast<int>(SideRule::kOfFile) &&
+              static_cast<int>(SideChoice::kSolid) == static_cast<int>(SideRule::kSolid) &&
+              static_cast<int>(SideChoice::kSurface) == static_cast<int>(SideRule::kSurface));
+
 BuildOptions options_of(const py::dict& given) {
   BuildOptions options;
-  const auto take = [&](const char* name, auto& to) {
-    if (given.contains(name)) to = py::cast<std::decay_t<decltype(to)>>(given[name]);
-  };
-  take("memory_bytes", options.memory_bytes);
-  take("threads", options.threads);
-  take("temp_directory", options.temp_directory);
-  take("page_bytes", options.page_bytes);
-  take("layers", options.layers);
-  take("resume", options.resume);
-  take("float64", options.float64);
-  take("strict", options.strict);
-  take("replace", options.replace);
-  if (given.contains("side"))
-    options.side = static_cast<SideChoice>(py::cast<std::uint8_t>(given["side"]));
+  const Options from(given);
+  from.take("memory_bytes", options.memory_bytes);
+  from.take("threads", options.threads);
+  from.take("temp_directory", options.temp_directory);
+  from.take("page_bytes", options.page_bytes);
+  from.take("layers", options.layers);
+  from.take("resume", options.resume);
+  from.take("float64", options.float64);
+  from.take("strict", options.strict);
+  from.take("replace", options.replace);
+  from.take("side", options.side);
   if (given.contains("box")) {
     const auto box = py::cast<std::array<std::array<double, 3>, 2>>(given["box"]);
     options.box = Box{{box[0][0], box[0][1], box[0][2]}, {box[1][0], box[1][1], box[1][2]}};
@@ -119,27 +122,14 @@ BuildReport build_file(const std::filesystem::path& mesh, const std::filesystem:
   return RunningBuild(input, output, options_of(options)).wait(progress);
 }
 
-// Returns the rows of a C-contiguous array of shape (count, 3), without a copy.
-template <class Row>
-std::span<const Row> rows_of(const char* name, const py::array& array, char kind) {
-  const bool has_shape = array.ndim() == 2 && array.shape(1) == 3;
-  const bool is_flat = (array.flags() & py::detail::npy_api::NPY_ARRAY_C_CONTIGUOUS_) != 0 &&
-                       (array.flags() & py::detail::npy_api::NPY_ARRAY_ALIGNED_) != 0;
-  if (!has_shape || !is_flat || array.dtype().char_() != kind)
-    throw py::value_error("'" + std::string(name) +
-                          "' must be a C-contiguous array of shape (count, 3) and of type '" +
-                          kind + "'");
-  return {static_cast<const Row*>(array.data()), static_cast<std::size_t>(array.shape(0))};
-}
-
 BuildReport build_arrays(const py::array& vertices, const py::array& faces,
                          const std::filesystem::path& output, const py::dict& options,
                          const py::object& progress) {
-  const auto triangles = rows_of<TriangleVertices>("faces", faces, 'I');
+  const auto triangles = triples_of<TriangleVertices>("faces", faces, 'I');
   const BuildInput input =
       vertices.dtype().char_() == 'f'
-          ? BuildInput(rows_of<FloatVertex>("vertices", vertices, 'f'), triangles)
-          : BuildInput(rows_of<Vec3>("vertices", vertices, 'd'), triangles);
+          ? BuildInput(triples_of<FloatVertex>("vertices", vertices, 'f'), triangles)
+          : BuildInput(triples_of<Vec3>("vertices", vertices, 'd'), triangles);
   return RunningBuild(input, output, options_of(options)).wait(progress);
 }
 

@@ -11,6 +11,11 @@ namespace planetree::python {
 /// Maximum memory of the answers of a chunk, in bytes.
 inline constexpr std::size_t kMaxChunkBytes = std::size_t{48} << 20;
 
+/// Number of answers that a chunk of in_chunks() has at most, at least 1 if there are any.
+inline std::size_t max_chunk_rows(std::size_t count, std::size_t row_bytes) {
+  return std::min(count, std::max<std::size_t>(1, kMaxChunkBytes / row_bytes));
+}
+
 /// Runs a long call chunk by chunk, without Python's global lock. Between chunks, signals such as
 /// Ctrl-C are handled and progress is told, which may raise an exception. Chunks grow while they
 /// take less than kSoon, so that Ctrl-C need not wait long.
@@ -24,7 +29,7 @@ void in_chunks(std::size_t count, std::size_t row_bytes, const pybind11::object&
   using Clock = std::chrono::steady_clock;
   constexpr std::chrono::milliseconds kSoon(100);
   constexpr std::size_t kFirstRows = 65536, kGrowth = 4;
-  const std::size_t max_rows = std::max<std::size_t>(1, kMaxChunkBytes / row_bytes);
+  const std::size_t max_rows = max_chunk_rows(count, row_bytes);
   std::size_t rows = std::min(kFirstRows, max_rows);
   for (std::size_t done = 0; done < count;) {
     const std::size_t end = done + std::min(rows, count - done);
@@ -38,11 +43,6 @@ void in_chunks(std::size_t count, std::size_t row_bytes, const pybind11::object&
     if (PyErr_CheckSignals() != 0) throw pybind11::error_already_set();
     if (!progress.is_none()) progress(done, count);
   }
-}
-
-/// Number of answers that a chunk of in_chunks() has at most.
-inline std::size_t max_chunk_rows(std::size_t count, std::size_t row_bytes) {
-  return std::min(count, std::max<std::size_t>(1, kMaxChunkBytes / row_bytes));
 }
 
 }  // namespace planetree::python

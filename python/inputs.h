@@ -36,10 +36,20 @@ class Rows {
   std::size_t count_;
 };
 
-/// Returns the points of a C-contiguous array of shape (count, 3), without a copy.
-///
-/// throws  ValueError that names the array, if it is another
-std::span<const Vec3> points_of(const std::string& name, const pybind11::array& array);
+/// Throws ValueError that names the array, unless it is aligned, C-contiguous, of shape (count, 3),
+/// and of the kind: as NumPy's dtype.char, in the machine's byte order.
+void check_triples(const std::string& name, const pybind11::array& array, char kind);
+
+/// Returns the rows of an array that check_triples() accepts, without a copy.
+template <class Row>
+std::span<const Row> triples_of(const std::string& name, const pybind11::array& array, char kind) {
+  check_triples(name, array, kind);
+  return {static_cast<const Row*>(array.data()), static_cast<std::size_t>(array.shape(0))};
+}
+inline std::span<const Vec3> points_of(const std::string& name, const pybind11::array& array) {
+  static_assert(sizeof(Vec3) == 3 * sizeof(double));
+  return triples_of<Vec3>(name, array, 'd');
+}
 
 /// Throws ValueError unless an array has as many rows as another one.
 void check_count(const std::string& name, std::size_t count, std::size_t wanted);

@@ -9,6 +9,7 @@
 #include "planetree/model.h"
 #include "planetree/stats.h"
 #include "python/model_handle.h"
+#include "python/options.h"
 #include "python/queries.h"
 
 namespace planetree::python {
@@ -18,21 +19,17 @@ namespace py = pybind11;
 
 std::shared_ptr<ModelHandle> open(const std::filesystem::path& path, const py::dict& given) {
   OpenOptions options;
-  const auto take = [&](const char* name, auto& to) {
-    if (given.contains(name)) to = py::cast<std::decay_t<decltype(to)>>(given[name]);
-  };
-  take("memory_budget_bytes", options.memory_budget_bytes);
-  take("fetch_threads", options.fetch_threads);
-  take("batch_threads", options.batch_threads);
-  take("max_probes", options.max_probes);
-  take("layers", options.layers);
-  take("read_ahead", options.read_ahead);
-  take("wait_limit_ms", options.wait_limit_ms);
-  take("use_io_uring", options.use_io_uring);
-  if (given.contains("locking"))
-    options.locking = static_cast<Locking>(py::cast<std::uint8_t>(given["locking"]));
-  if (given.contains("policy"))
-    options.policy = static_cast<EvictionPolicy>(py::cast<std::uint8_t>(given["policy"]));
+  const Options from(given);
+  from.take("memory_budget_bytes", options.memory_budget_bytes);
+  from.take("fetch_threads", options.fetch_threads);
+  from.take("batch_threads", options.batch_threads);
+  from.take("max_probes", options.max_probes);
+  from.take("layers", options.layers);
+  from.take("read_ahead", options.read_ahead);
+  from.take("wait_limit_ms", options.wait_limit_ms);
+  from.take("use_io_uring", options.use_io_uring);
+  from.take("locking", options.locking);
+  from.take("policy", options.policy);
   return std::make_shared<ModelHandle>(path, options);
 }
 

@@ -17,33 +17,19 @@ namespace {
 
 namespace py = pybind11;
 
-// Answers that are asked for and written to columns chunk by chunk.
-template <class Answer>
-class Chunk {
- public:
-  Chunk(std::size_t count, const Columns<Answer>& columns)
-      : columns_(columns), answers_(max_chunk_rows(count, sizeof(Answer))) {}
-
-  std::span<Answer> answers(std::size_t count) { return std::span(answers_).first(count); }
-  void write(std::size_t first, std::size_t count) { columns_.write(first, answers(count)); }
-
- private:
-  const Columns<Answer>& columns_;
-  std::vector<Answer> answers_;
-};
-
-// Runs the batch of a kind of query. Queries are made chunk by chunk if the caller has none.
+// Runs the batch of a kind of query, and writes its answers to columns chunk by chunk.
 //
 // query  query(probe, first, end, answers) makes the queries from `first` on
 template <class Answer, class Query>
 void run_batch(const ModelHandle& handle, std::size_t count, const Columns<Answer>& columns,
                const py::object& progress, const Query& query) {
   const std::shared_ptr<OpenModel> model = handle.get();
-  Chunk<Answer> chunk(count, columns);
+  std::vector<Answer> answers(max_chunk_rows(count, sizeof(Answer)));
   in_chunks(count, sizeof(Answer), progress, [&](std::size_t first, std::size_t end) {
+    const auto some = std::span(answers).first(end - first);
     LentProbe probe(*model);
-    query(probe, first, end, chunk.answers(end - first));
-    chunk.write(first, end - first);
+    query(probe, first, end, some);
+    columns.write(first, some);
   });
 }
 
@@ -148,7 +134,6 @@ void run_sets(const ModelHandle& handle, std::size_t count, std::size_t share, c
   in_chunks(count, row_bytes, progress, [&](std::size_t first, std::size_t end) {
     const std::size_t rows = end - first;
     const auto room = std::span(answers).first(rows * share);
-    std::fill(room.begin(), room.end(), none);
     LentProbe probe(*model);
     find(probe, first, end, room, std::span(found).first(rows));
     for (std::size_t i = 0; i < rows; ++i) {

@@ -128,6 +128,7 @@ std::uint32_t ProbeState::fetch_pages(const Vec3& query, const QueryOptions& opt
 bool ProbeState::fetch_page(std::uint32_t page, const std::atomic<bool>& stop) noexcept {
   RunningQuery running(*this, PageAccess::Query::kPrefetch, Wait::kForPages, &stop);
   const octree::PageReader& pages = running.pages();
+  // A page that is resident already was not looked up by a query, and counts as no hit.
   if (!pages.peek(pages.context, page)) pages.page(pages.context, page);
   return running.fetched() > 0;
 }

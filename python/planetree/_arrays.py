@@ -31,28 +31,43 @@ def bytes_of(size: "int | str") -> int:
     return int(size)
 
 
-def numbers(name: str, values: Any) -> np.ndarray:
-    """Returns an array of float64. C-contiguous arrays of float64 are returned as they are."""
+def _real(name: str, values: Any) -> np.ndarray:
+    """Returns an array of real numbers, as they are given."""
     array = np.asarray(values)
     if array.dtype.kind not in "fiu":
         raise TypeError(f"{name!r} has values of the type {array.dtype}; it needs real numbers")
-    return np.require(array, np.float64, ("C", "A"))
+    return array
+
+
+def numbers(name: str, values: Any) -> np.ndarray:
+    """Returns an array of float64. C-contiguous arrays of float64 are returned as they are."""
+    return np.require(_real(name, values), np.float64, ("C", "A"))
+
+
+def rows(name: str, values: Any, width: int) -> Tuple[np.ndarray, Tuple[int, ...]]:
+    """Returns an array of shape (count, width) and the leading shape of one of shape (..., width)."""
+    array = numbers(name, values)
+    if array.ndim == 0 or array.shape[-1] != width:
+        raise ValueError(f"{name!r} has the shape {array.shape}; it needs (..., {width})")
+    return array.reshape(-1, width), array.shape[:-1]
 
 
 def vectors(name: str, values: Any) -> Tuple[np.ndarray, Tuple[int, ...]]:
-    """Returns an array of shape (count, 3) and the leading shape of one of shape (..., 3)."""
-    array = numbers(name, values)
-    if array.ndim == 0 or array.shape[-1] != 3:
-        raise ValueError(f"{name!r} has the shape {array.shape}; it needs (..., 3)")
-    return array.reshape(-1, 3), array.shape[:-1]
+    """Returns points or directions as rows()."""
+    return rows(name, values, 3)
+
+
+def vectors_beside(name: str, values: Any, shape: Tuple[int, ...]) -> np.ndarray:
+    """Returns rows of an array that must have a leading shape."""
+    found, leading = vectors(name, values)
+    if leading != shape:
+        raise ValueError(f"{name!r} has the leading shape {leading}; it needs {shape}")
+    return found
 
 
 def spread(name: str, values: Any, shape: Tuple[int, ...]) -> np.ndarray:
     """Returns numbers, one for each row, from one for all or from an array of a shape."""
-    array = np.asarray(values)
-    if array.dtype.kind not in "fiu":
-        raise TypeError(f"{name!r} has values of the type {array.dtype}; it needs real numbers")
-    array = np.require(array, np.float64, ("A",))
+    array = np.require(_real(name, values), np.float64, ("A",))
     count = int(np.prod(shape))
     if array.ndim == 0:
         return np.broadcast_to(array, (count,))
@@ -63,9 +78,20 @@ def spread(name: str, values: Any, shape: Tuple[int, ...]) -> np.ndarray:
 
 
 class Columns:
-    """Arrays by field. A field that was not asked for does not exist."""
+    """Arrays by field. A field that was not asked for does not exist.
 
-    _all: Sequence[str] = ()
+    The fields of a class are those that it and its bases annotate, in their order.
+    """
+
+    _all = ()  # type: Tuple[str, ...]
+
+    def __init_subclass__(cls) -> None:
+        cls._all = tuple(dict.fromkeys((*cls._all, *getattr(cls, "__annotations__", {}))))
+
+    @classmethod
+    def all_fields(cls) -> Tuple[str, ...]:
+        """Names of all arrays that there may be."""
+        return cls._all
 
     def __init__(self, arrays: Mapping[str, np.ndarray]) -> None:
         self._arrays = dict(arrays)
@@ -114,15 +140,13 @@ def make_columns(
     """Returns an array for each field: that of `out`, or a new one of a leading shape."""
     arrays: Dict[str, np.ndarray] = {}
     for name in names:
+        wanted = shape + ((3,) if name in _TRIPLES else ())
         if out is not None and name in out:
             given = out[name]
-            wanted = shape + ((3,) if name in _TRIPLES else ())
             if not isinstance(given, np.ndarray) or given.shape != wanted:
                 got = getattr(given, "shape", type(given).__name__)
                 raise ValueError(f"out[{name!r}] has the shape {got}; it needs {wanted}")
             arrays[name] = given
         else:
-            arrays[name] = np.empty(
-                shape + ((3,) if name in _TRIPLES else ()), _TYPES.get(name, np.float64)
-            )
+            arrays[name] = np.empty(wanted, _TYPES.get(name, np.float64))
     return arrays

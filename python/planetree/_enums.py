@@ -54,6 +54,15 @@ class Layers(IntFlag):
     ALL = 7
 
 
+class Parts(IntFlag):
+    """Parts of an answer."""
+
+    DISTANCE = 1
+    SIDE = 2
+    NORMAL = 4
+    ALL = 7
+
+
 class Locking(IntEnum):
     """Whether the memory of a model is locked, so that the system does not swap it out."""
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Iterable, Optional, Sequence, Tuple, Unio
 import numpy as np
 
 from ._arrays import chosen_fields, make_columns
-from ._results import CLOSEST_POINT_FIELDS, Result
+from ._results import Result
 
 if TYPE_CHECKING:
     from ._model import Model
@@ -55,7 +55,7 @@ def _sample(
     progress: Any,
 ) -> dict:
     """Returns columns of the shape of a grid. Points are made in chunks along the first axes."""
-    names = chosen_fields(fields, None, CLOSEST_POINT_FIELDS)
+    names = chosen_fields(fields, None, Result.all_fields())
     shape = tuple(len(axis) for axis in axes)
     count = int(np.prod(shape))
     arrays = make_columns(names, None, shape)

@@ -6,14 +6,13 @@ import math
 from typing import Any, List, NamedTuple, Optional, Sequence, Tuple
 
 from . import _planetree
-from ._enums import NormalRule, Side, SideRule, Status
+from ._enums import NormalRule, Parts, Side, SideRule, Status
 
 _NO_LIMIT = 2**32 - 1
-_ALL_PARTS = 7
 
 
 def query_options(
-    parts: int = _ALL_PARTS,
+    parts: int = Parts.ALL,
     *,
     max_error: float = 0.0,
     max_distance: float = math.inf,
@@ -30,7 +29,7 @@ def query_options(
     if max_work is not None and not 0 < max_work < _NO_LIMIT:
         raise ValueError(f"max_work is {max_work}; give 1 or more, or None")
     return _planetree.QueryOptions(
-        parts,
+        int(parts),
         0 if wait else 1,
         int(SideRule(side_rule)),
         int(NormalRule(normal_rule)),
@@ -60,8 +59,8 @@ class Probe:
         self._default = query_options()
 
     @staticmethod
-    def options(parts: int = _ALL_PARTS, **options: Any) -> _planetree.QueryOptions:
-        """Returns options for the methods below. Parts are sums of 1 distance, 2 side, 4 normal."""
+    def options(parts: int = Parts.ALL, **options: Any) -> _planetree.QueryOptions:
+        """Returns options for the methods below. `parts` is a sum of Parts."""
         return query_options(parts, **options)
 
     def closest_point(

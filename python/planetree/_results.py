@@ -6,43 +6,6 @@ import numpy as np
 
 from ._arrays import Columns
 
-CLOSEST_POINT_FIELDS = (
-    "distance",
-    "signed_distance",
-    "lower",
-    "upper",
-    "side",
-    "points",
-    "normals",
-    "triangles",
-    "barycentric",
-    "feature",
-    "status",
-)
-HIT_FIELDS = (
-    "t",
-    "t_lower",
-    "t_upper",
-    "points",
-    "normals",
-    "triangles",
-    "barycentric",
-    "entering",
-    "status",
-)
-CONTACT_FIELDS = (
-    "t",
-    "t_lower",
-    "t_upper",
-    "free",
-    "points",
-    "normals",
-    "triangles",
-    "barycentric",
-    "feature",
-    "status",
-)
-
 
 class Result(Columns):
     """Closest points. Arrays have the leading shape of the query points, here (...).
@@ -59,7 +22,6 @@ class Result(Columns):
     status           uint8 (...)       a Status
     """
 
-    _all = CLOSEST_POINT_FIELDS
     distance: np.ndarray
     signed_distance: np.ndarray
     lower: np.ndarray
@@ -98,7 +60,6 @@ class Hits(Columns):
     status            uint8 (...)       a Status
     """
 
-    _all = HIT_FIELDS
     t: np.ndarray
     t_lower: np.ndarray
     t_upper: np.ndarray
@@ -136,7 +97,6 @@ class FirstContacts(Columns):
     status            uint8 (...)       a Status
     """
 
-    _all = CONTACT_FIELDS
     t: np.ndarray
     t_lower: np.ndarray
     t_upper: np.ndarray

@@ -100,15 +100,16 @@ bool FetchWorker::prefetch_position(std::size_t index) noexcept {
 // read.
 bool FetchWorker::read_next_page() noexcept {
   constexpr unsigned kPages = 64;
-  std::uint32_t page = ReadAhead::kNoPage;
-  for (unsigned left = read_ahead_ ? kPages : 0; left > 0; --left) {
-    page = read_ahead_->take();
+  if (!read_ahead_) return false;
+  for (unsigned left = kPages; left > 0; --left) {
+    const std::uint32_t page = read_ahead_->take();
     if (page == ReadAhead::kNoPage) return false;
-    if (!probe_->fetch_page(page, stop_)) continue;
-    pages_read_ahead_.fetch_add(1, std::memory_order_relaxed);
-    break;
+    if (probe_->fetch_page(page, stop_)) {
+      pages_read_ahead_.fetch_add(1, std::memory_order_relaxed);
+      return true;
+    }
   }
-  return page != ReadAhead::kNoPage;
+  return true;
 }
 
 // Updates the maximum time of recent requests. It decays towards the time of each later request by
@@ -194,16 +195,11 @@ Result<std::unique_ptr<FetchThreads>> FetchThreads::start(
   }
 }
 
-std::uint64_t FetchThreads::pages_prefetched() const noexcept {
-  std::uint64_t pages = 0;
-  for (const auto& worker : workers_) pages += worker->pages_prefetched();
-  return pages;
-}
-
-std::uint64_t FetchThreads::pages_read_ahead() const noexcept {
-  std::uint64_t pages = 0;
-  for (const auto& worker : workers_) pages += worker->pages_read_ahead();
-  return pages;
+std::uint64_t FetchThreads::sum_of(std::uint64_t (FetchWorker::*pages)()
+                                       const noexcept) const noexcept {
+  std::uint64_t sum = 0;
+  for (const auto& worker : workers_) sum += (*worker.*pages)();
+  return sum;
 }
 
 FetchThreads::~FetchThreads() {

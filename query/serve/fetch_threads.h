@@ -156,12 +156,13 @@ class FetchThreads {
   std::uint64_t fetch_requests_served() const noexcept {
     return requests_served_.load(std::memory_order_relaxed);
   }
-  std::uint64_t pages_prefetched() const noexcept;
-  std::uint64_t pages_read_ahead() const noexcept;
+  std::uint64_t pages_prefetched() const noexcept { return sum_of(&FetchWorker::pages_prefetched); }
+  std::uint64_t pages_read_ahead() const noexcept { return sum_of(&FetchWorker::pages_read_ahead); }
 
  private:
   explicit FetchThreads(cache::PageCache& cache) : cache_(cache) {}
   void run(FetchWorker& worker) noexcept;
+  std::uint64_t sum_of(std::uint64_t (FetchWorker::*pages)() const noexcept) const noexcept;
 
   cache::PageCache& cache_;
   std::vector<std::unique_ptr<FetchWorker>> workers_;

@@ -21,11 +21,13 @@ Error damaged(const char* what) {
 }
 
 Error unsuitable(const RowShape& shape, const char* what, std::string_view got) {
+  std::string numbers = std::to_string(shape.required);
+  if (shape.count > shape.required) numbers += " or " + std::to_string(shape.count);
   return make_error(ErrorCode::kBadInput, Error::kNowhere, 0,
                     "the NumPy array has %s %.*s; save %ss as a C-contiguous array of numbers with "
-                    "%zu%s of them in each row",
+                    "%s of them in each row",
                     what, static_cast<int>(std::min<std::size_t>(got.size(), 40)), got.data(),
-                    shape.noun, shape.required, shape.count > shape.required ? " or 8" : "");
+                    shape.noun, numbers.c_str());
 }
 
 // Returns what follows a key and its colon in the text of a dictionary.

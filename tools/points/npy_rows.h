@@ -18,7 +18,7 @@ namespace planetree::tools {
 template <class Row>
 class NpyRows final : public RowReader<Row> {
  public:
-  /// file  its front is the header's; nothing was read of it
+  /// file  behind the header
   NpyRows(std::string name, InputFile file, const NpyHeader& header)
       : RowReader<Row>(std::move(name), header.numbers),
         file_(std::move(file)),
@@ -26,7 +26,6 @@ class NpyRows final : public RowReader<Row> {
         bytes_(kChunkRows * header.row_bytes()) {}
 
   Result<std::size_t> read(std::span<Row> rows) override {
-    if (const auto skipped = skip_header(); !skipped) return skipped.error();
     if (is_cut_) return cut_off();
     const std::uint64_t left = header_.rows - rows_read_;
     const auto wanted =
@@ -45,14 +44,6 @@ class NpyRows final : public RowReader<Row> {
  private:
   static constexpr std::size_t kChunkRows = 4096;
 
-  Result<void> skip_header() {
-    if (is_begun_) return {};
-    is_begun_ = true;
-    std::vector<std::byte> header(header_.bytes);
-    const auto read = file_.read(header);
-    if (!read) return read.error();
-    return {};
-  }
   Row row_at(std::size_t i) const {
     // Optional numbers keep their defaults.
     auto numbers = std::bit_cast<std::array<double, RowReader<Row>::kNumbers>>(Row{});
@@ -73,7 +64,7 @@ class NpyRows final : public RowReader<Row> {
   const NpyHeader header_;
   std::vector<std::byte> bytes_;
   std::uint64_t rows_read_ = 0;
-  bool is_begun_ = false, is_cut_ = false;
+  bool is_cut_ = false;
 };
 
 }  // namespace planetree::tools

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 #include <type_traits>
+#include <vector>
 
 #include "octree/builder/mesh/ply_header.h"
 #include "octree/builder/mesh/stream/mesh_file.h"
@@ -71,6 +72,8 @@ Result<std::unique_ptr<RowReader<Row>>> open_rows(const std::string& path,
     if (!choice.empty()) return no_columns();
     const Result<NpyHeader> header = parse_npy_header(*front, shape);
     if (!header) return header.error();
+    std::vector<std::byte> skipped(header->bytes);
+    if (const auto read = file->read(skipped); !read) return read.error();
     return Reader(std::make_unique<NpyRows<Row>>(points_name(path), *std::move(file), *header));
   }
   const bool is_whole = front->size() < kFrontBytes;
