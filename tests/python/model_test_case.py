@@ -1,6 +1,8 @@
 """A test case with a model of a sphere."""
 
+import contextlib
 import pathlib
+import signal
 import tempfile
 import unittest
 
@@ -8,6 +10,26 @@ import numpy as np
 
 import planetree
 from shapes import sphere
+
+
+class Alarm(Exception):
+    """What the signal of alarm_soon() raises."""
+
+
+@contextlib.contextmanager
+def alarm_soon(seconds):
+    """Sends a signal to this process, whose handler raises Alarm, as that of Ctrl-C does."""
+
+    def ring(*_):
+        raise Alarm
+
+    before = signal.signal(signal.SIGALRM, ring)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
 
 
 class ModelTestCase(unittest.TestCase):

@@ -7,7 +7,7 @@ import unittest
 import numpy as np
 
 import planetree
-from model_test_case import ModelTestCase
+from model_test_case import Alarm, ModelTestCase, alarm_soon
 from planetree import ErrorCode
 from shapes import cube, run_command
 
@@ -119,6 +119,9 @@ class Builds(ModelTestCase):
             planetree.build(mesh, path, progress=progress)
         self.assertFalse(path.exists())
         self.assertIsInstance(told[0], str)
+        with self.assertRaises(Alarm), alarm_soon(0.1):
+            planetree.build(mesh, path)
+        self.assertFalse(path.exists())
 
 
 if __name__ == "__main__":

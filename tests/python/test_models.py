@@ -10,7 +10,7 @@ import unittest
 import numpy as np
 
 import planetree
-from model_test_case import ModelTestCase
+from model_test_case import Alarm, ModelTestCase, alarm_soon
 from planetree import ErrorCode, _planetree
 
 
@@ -137,6 +137,13 @@ class Models(ModelTestCase):
         with self.assertRaises(KeyboardInterrupt):
             self.model.distance(points, progress=interrupt)
         self.assertLess(told[-1], len(points))
+
+    def test_signals_end_a_call_that_runs_no_python(self):
+        points = self.points(3_000_000)
+        out = {"distance": np.full(len(points), -1.0)}
+        with self.assertRaises(Alarm), alarm_soon(0.1):
+            self.model.closest_points(points, out=out)
+        self.assertEqual(out["distance"][-1], -1)
 
     def test_a_forked_process_is_told_to_open_its_own(self):
         context = multiprocessing.get_context("fork")
