@@ -44,6 +44,7 @@ ModelLine::ModelLine(const Scale& scale, const Ray& ray) {
            {unit(ray.direction.x), unit(ray.direction.y), unit(ray.direction.z)},
            octree::Point::Zero()};
   exponent_ = exponent + scale.exponent();
+  given_ = {ray.t_min, ray.t_max};
   range_ = {std::ldexp(ray.t_min, exponent_), std::ldexp(ray.t_max, exponent_)};
   speed_ = line_.head.norm() * (1 + octree::kNormRounding);
   is_far_ = query::is_far(line_.origin) || !std::isfinite(range_.lower);
@@ -51,6 +52,7 @@ ModelLine::ModelLine(const Scale& scale, const Ray& ray) {
 
 ModelLine::ModelLine(const Scale& scale, const Sweep& sweep)
     : line_{scale.in(sweep.from), scale.in(sweep.to), scale.in(sweep.from)},
+      given_{0, 1},
       range_{0, 1},
       speed_(line_.direction().norm() * (1 + octree::kNormRounding)),
       is_far_(query::is_far(line_.origin) || query::is_far(line_.head)) {}
@@ -96,14 +98,17 @@ double ModelLine::position_after(double from, double length) const {
   return from + length / speed_ * (1 - octree::kNormRounding);
 }
 
-double ModelLine::out(double position) const { return std::ldexp(position, -exponent_); }
+// With the least directions the ends of the range are rounded in the model frame.
+double ModelLine::out(double position) const {
+  return std::clamp(std::ldexp(position, -exponent_), given_.lower, given_.upper);
+}
 double ModelLine::out_below(double position) const {
-  const double value = out(position);
+  const double value = std::ldexp(position, -exponent_);
   return value < std::numeric_limits<double>::min() ? std::max(0.0, std::nextafter(value, 0.0))
                                                     : value;
 }
 double ModelLine::out_above(double position) const {
-  const double value = out(position);
+  const double value = std::ldexp(position, -exponent_);
   return value < std::numeric_limits<double>::min() ? std::nextafter(value, kInfinity) : value;
 }
 

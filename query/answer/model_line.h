@@ -41,13 +41,15 @@ class ModelLine {
   /// Returns a lower bound on the position that is reached from `from` after a length.
   double position_after(double from, double length) const;
 
-  /// Converts a position, or a bound on one, to the caller's.
+  /// Converts a position of the range to the caller's, in the range that the caller gave.
   double out(double position) const;
+  /// Converts a bound on a position.
   double out_below(double position) const;
   double out_above(double position) const;
 
  private:
   octree::Line line_;
+  octree::LineRange given_;  // the caller's positions
   octree::LineRange range_;
   int exponent_ = 0;
   double speed_;  // upper bound on the length of the way for each unit of position

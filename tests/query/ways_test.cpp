@@ -40,6 +40,31 @@ class Ways : public testing::Test {
   const SampleModel sample_ = SampleModel::masked(octree::sphere(5));
 };
 
+// In the model frame the range of the least direction is rounded to [0, least]. A hit at the origin
+// is then within it, as far as is known, and its `t` stays within what was given.
+TEST_F(Ways, OfTheLeastDirectionHitWithinTheirRange) {
+  const Model model = sample_.open();
+  Probe probe = make_probe(model);
+  const double least = std::numeric_limits<double>::denorm_min();
+  std::vector<RayHit> hits(8);
+  std::size_t count = 0;
+  for (const Vec3& end : {Vec3{3, 0, 0}, Vec3{0, -3, 0}, Vec3{0, 0, 3}})
+    for (const double x : {-least, least})
+      for (const double y : {-least, least})
+        for (const double z : {-least, least}) {
+          const Vec3 origin = probe.closest_point(end).point;
+          const Found found = probe.all_hits({origin, {x, y, z}, 0.25, 1}, hits);
+          count += found.count;
+          for (std::size_t i = 0; i < found.count; ++i) {
+            EXPECT_GE(hits[i].t, 0.25);
+            EXPECT_LE(hits[i].t, 1);
+            EXPECT_LE(hits[i].t_lower, hits[i].t);
+            EXPECT_GE(hits[i].t_upper, hits[i].t);
+          }
+        }
+  EXPECT_GT(count, 0u);
+}
+
 // A ray from the centre leaves a closed surface once, also through its edges and vertices.
 TEST_F(Ways, LeaveASphereOnce) {
   const Model model = sample_.open();
