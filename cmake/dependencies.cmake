@@ -13,5 +13,6 @@ find_package(Threads REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(hwy REQUIRED CONFIG)
 find_package(TBB REQUIRED)
+find_package(nlohmann_json REQUIRED CONFIG)  # headers only
 find_package(Boost REQUIRED)  # headers only: Multiprecision, for exact predicates
 unset(CMAKE_FIND_PACKAGE_TARGETS_GLOBAL)

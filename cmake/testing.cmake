@@ -9,7 +9,6 @@
 # patterns of gtest, whose tests are not labelled LABEL_fast: `ctest -L fast` runs the others, in
 # less than a minute.
 find_package(GTest REQUIRED)
-find_package(nlohmann_json REQUIRED CONFIG)
 include(GoogleTest)
 
 # Most of the time of a full run goes into compiling: so the headers that tests

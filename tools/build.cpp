@@ -247,8 +247,8 @@ void add_build(CLI::App& app, Console& console, std::function<int()>& action) {
   SubcommandOptions subcommand(app, "build", "Build the .ptree file of a mesh");
   subcommand.require(
       subcommand.path("input", "IN", arguments.input,
-                      "Mesh to read: PLY, STL or OFF (ascii or binary) or OBJ, as it "
-                      "is or compressed by gzip or zstd"));
+                      "Mesh to read: PLY, STL or OFF (ascii or binary), glTF or GLB, "
+                      "or OBJ, as it is or compressed by gzip or zstd"));
   subcommand.require(subcommand.path("-o,--output", "OUT.ptree", arguments.output,
                                      "File to write; it appears only when it is complete"));
   subcommand.default_text(

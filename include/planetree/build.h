@@ -66,10 +66,11 @@ class BuildInput {
   /// One of the kinds of input.
   using Content = std::variant<std::filesystem::path, Mesh<Vec3>, Mesh<FloatVertex>, Stream>;
 
-  /// A mesh file: PLY, STL or OFF (text or binary) or OBJ, as it is or compressed by gzip or zstd.
-  /// docs/formats.md lists what is read of each. The format is detected from the content, except
-  /// for OBJ, which needs the extension .obj (.obj.gz or .obj.zst if compressed). The file must be
-  /// a regular file and must not change during the build.
+  /// A mesh file: PLY, STL or OFF (text or binary), glTF 2.0 (JSON or binary) or OBJ, as it is or
+  /// compressed by gzip or zstd. docs/formats.md lists what is read of each. The format is detected
+  /// from the content, except for OBJ, which needs the extension .obj (.obj.gz or .obj.zst if
+  /// compressed). The file, and those that hold the buffers of a glTF, must be regular files and
+  /// must not change during the build.
   template <class Path>
   requires std::convertible_to<const Path&, std::filesystem::path> &&
       (!std::same_as<Path, BuildInput>)BuildInput(const Path& path)

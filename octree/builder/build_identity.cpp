@@ -4,11 +4,13 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <tuple>
 #include <variant>
 #include <vector>
 
+#include "octree/builder/mesh/side_files.h"
 #include "storage/system/file_error.h"
 #include "storage/system/file_handle.h"
 
@@ -49,7 +51,8 @@ Result<storage::Hash128> sample_of(const storage::FileHandle& file, std::uint64_
   return hasher.value();
 }
 
-Result<BuildIdentity> identity_of(const std::filesystem::path& input, storage::FileCalls& calls) {
+Result<BuildIdentity> identity_of_file(const std::filesystem::path& input,
+                                       storage::FileCalls& calls) {
   // With O_NONBLOCK a FIFO without a writer is refused instead of waited for.
   const auto file =
       storage::FileHandle::open(calls, AT_FDCWD, input.c_str(), O_RDONLY | O_NONBLOCK);
@@ -68,6 +71,35 @@ Result<BuildIdentity> identity_of(const std::filesystem::path& input, storage::F
   if (!sample) return sample.error();
   identity.sample_low = sample->low;
   identity.sample_high = sample->high;
+  return identity;
+}
+
+// That of other files which the mesh is read with is part of the sample.
+Result<BuildIdentity> identity_of(const std::filesystem::path& input, storage::FileCalls& calls) {
+  auto identity = identity_of_file(input, calls);
+  if (!identity) return identity;
+  const auto side_files = side_files_of(input, calls);
+  if (!side_files) return side_files.error();
+  if (side_files->empty()) return identity;
+  storage::Hasher128 hasher;
+  const auto add = [&hasher](const BuildIdentity& of) {
+    const std::array<std::uint64_t, 6> numbers = {
+        of.input_bytes,
+        of.input_number,
+        static_cast<std::uint64_t>(of.changed_seconds),
+        static_cast<std::uint64_t>(of.changed_nanoseconds),
+        of.sample_low,
+        of.sample_high};
+    hasher.add(std::as_bytes(std::span(numbers)));
+  };
+  add(*identity);
+  for (const std::filesystem::path& path : *side_files) {
+    const auto side = identity_of_file(path, calls);
+    if (!side) return side;
+    add(*side);
+  }
+  identity->sample_low = hasher.value().low;
+  identity->sample_high = hasher.value().high;
   return identity;
 }
 

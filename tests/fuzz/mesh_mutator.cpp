@@ -11,6 +11,8 @@ namespace {
 
 constexpr std::string_view kEndHeader = "end_header\n";
 constexpr std::size_t kStlHead = 84, kStlTriangle = 50;
+constexpr std::string_view kBinaryChunk("BIN\0", 4);
+constexpr std::size_t kGlbHead = 20, kChunkHead = 8;
 
 std::size_t ply_text(std::string_view mesh) {
   const std::size_t end = mesh.find(kEndHeader);
@@ -27,6 +29,13 @@ std::size_t obj_text(std::string_view mesh) { return mesh.size(); }
 
 std::size_t stl_text(std::string_view mesh) {
   return mesh.find("facet") < 200 || mesh.size() < kStlHead ? mesh.size() : 0;
+}
+
+bool is_glb(std::string_view mesh) { return mesh.starts_with("glTF") && mesh.size() >= kGlbHead; }
+
+std::size_t gltf_text(std::string_view mesh) {
+  const std::size_t end = mesh.find(kBinaryChunk);
+  return is_glb(mesh) && end != mesh.npos && end >= kGlbHead + 4 ? end - 4 : mesh.size();
 }
 
 // A binary body may have become too short for the counts.
@@ -156,6 +165,42 @@ constexpr std::string_view kStlWords[] = {
     "vertex", "endloop", "endfacet",     "endsolid", "0",          "1",     "-1",
     "1e39",   "nan",     "inf",          "-0.0",     "0.5e-45"};
 
+constexpr std::string_view kGltfWords[] = {"\"accessors\": [",
+                                           "\"bufferViews\": [",
+                                           "\"nodes\": [",
+                                           "\"children\": [",
+                                           "\"mesh\":",
+                                           "\"mode\":",
+                                           "\"indices\":",
+                                           "\"sparse\": {",
+                                           "\"byteOffset\":",
+                                           "\"byteStride\":",
+                                           "\"count\":",
+                                           "\"componentType\":",
+                                           "\"normalized\": true,",
+                                           "\"scale\": [ -1, 2, 1e-300 ],",
+                                           "\"rotation\": [ 0, 0, 0, 0 ],",
+                                           "\"SCALAR\",",
+                                           "\"VEC3\",",
+                                           "5120,",
+                                           "5121,",
+                                           "5122,",
+                                           "5123,",
+                                           "5125,",
+                                           "5126,",
+                                           "{",
+                                           "},",
+                                           "[",
+                                           "],",
+                                           "0,",
+                                           "1,",
+                                           "3",
+                                           "4096,",
+                                           "-1,",
+                                           "1e308,",
+                                           "18446744073709551615,",
+                                           "\"\\u0000\","};
+
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
 /// The parts of a text between separators, as [begin, end).
@@ -215,12 +260,28 @@ void change_binary(std::string& bytes, Choices& choices) {
   change_value(std::as_writable_bytes(std::span(bytes)).subspan(at, width), choices);
 }
 
+// The lengths of a GLB and of its chunks become those of what is there.
+void repair_gltf(std::string& mesh, Choices& choices) {
+  if (!is_glb(mesh) || choices.one_in(8)) return;
+  const auto put = [&mesh](std::size_t at, std::size_t value) {
+    const auto number = static_cast<std::uint32_t>(value);
+    std::memcpy(mesh.data() + at, &number, sizeof number);
+  };
+  const std::size_t text_end = gltf_text(mesh);
+  put(4, 2);
+  put(8, mesh.size());
+  put(12, text_end - kGlbHead);
+  mesh.replace(16, 4, "JSON");
+  if (text_end + kChunkHead <= mesh.size()) put(text_end, mesh.size() - text_end - kChunkHead);
+}
+
 }  // namespace
 
 const MeshGrammar kPlyGrammar = {kPlyWords, ply_text, repair_ply};
 const MeshGrammar kOffGrammar = {kOffWords, off_text, repair_off};
 const MeshGrammar kObjGrammar = {kObjWords, obj_text, repair_obj};
 const MeshGrammar kStlGrammar = {kStlWords, stl_text, repair_stl};
+const MeshGrammar kGltfGrammar = {kGltfWords, gltf_text, repair_gltf};
 
 std::size_t mutate_mesh(const MeshGrammar& grammar, std::uint8_t* data, std::size_t size,
                         std::size_t max_size, unsigned seed) {

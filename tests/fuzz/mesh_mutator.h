@@ -20,7 +20,7 @@ struct MeshGrammar {
   void (*repair)(std::string& mesh, Choices& choices);
 };
 
-extern const MeshGrammar kPlyGrammar, kOffGrammar, kObjGrammar, kStlGrammar;
+extern const MeshGrammar kPlyGrammar, kOffGrammar, kObjGrammar, kStlGrammar, kGltfGrammar;
 
 /// Changes words, numbers and lines of a mesh, so that most results still have a valid header.
 /// One input in three is left to libFuzzer's own changes. The arguments are those of

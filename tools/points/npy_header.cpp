@@ -11,7 +11,7 @@ namespace planetree::tools {
 namespace {
 
 using namespace std::string_view_literals;
-using octree::PlyType;
+using octree::ScalarType;
 
 constexpr std::string_view kMagic = "\x93NUMPY"sv;
 
@@ -41,13 +41,13 @@ std::optional<std::string_view> value_of(std::string_view text, std::string_view
 
 struct Kind {
   std::string_view name;  // behind the byte order
-  PlyType type;
+  ScalarType type;
 };
 constexpr Kind kKinds[] = {
-    {"f8", PlyType::kFloat64}, {"f4", PlyType::kFloat32}, {"i1", PlyType::kInt8},
-    {"u1", PlyType::kUint8},   {"i2", PlyType::kInt16},   {"u2", PlyType::kUint16},
-    {"i4", PlyType::kInt32},   {"u4", PlyType::kUint32},  {"i8", PlyType::kInt64},
-    {"u8", PlyType::kUint64},
+    {"f8", ScalarType::kFloat64}, {"f4", ScalarType::kFloat32}, {"i1", ScalarType::kInt8},
+    {"u1", ScalarType::kUint8},   {"i2", ScalarType::kInt16},   {"u2", ScalarType::kUint16},
+    {"i4", ScalarType::kInt32},   {"u4", ScalarType::kUint32},  {"i8", ScalarType::kInt64},
+    {"u8", ScalarType::kUint64},
 };
 
 // Reads a type such as '<f8'.

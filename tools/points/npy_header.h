@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "octree/builder/mesh/ply_scalar.h"
+#include "octree/builder/mesh/stream/scalar_type.h"
 #include "planetree/error.h"
 #include "tools/points/row_shape.h"
 
@@ -14,7 +14,7 @@ namespace planetree::tools {
 ///
 /// source  numpy.lib.format, versions 1.0 to 3.0
 struct NpyHeader {
-  octree::PlyType type = octree::PlyType::kFloat64;
+  octree::ScalarType type = octree::ScalarType::kFloat64;
   bool swap = false;        ///< whether the file has the other byte order
   std::size_t bytes = 0;    ///< length of the header
   std::uint64_t rows = 0;   ///< product of all lengths but the last

@@ -49,7 +49,7 @@ Result<PlyHeader> parse_header(std::string_view file) {
 /// Parses a value. A float property is rounded once, to float, as the mesh reader does, so that the
 /// vertices of a mesh lie on the mesh.
 bool parse_number(const octree::PlyProperty& property, std::string_view word, double& value) {
-  if (property.is_list || property.type != octree::PlyType::kFloat32)
+  if (property.is_list || property.type != octree::ScalarType::kFloat32)
     return octree::parse_real(word, value);
   float rounded = 0;
   if (!octree::parse_real(word, rounded)) return false;

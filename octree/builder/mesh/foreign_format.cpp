@@ -14,7 +14,7 @@ using namespace std::string_view_literals;
 
 constexpr std::string_view kUnpack = "unpack it and give the mesh in it";
 constexpr std::string_view kExport =
-    "open it in the program it is from and export PLY, STL, OBJ or OFF";
+    "open it in the program it is from and export PLY, STL, OBJ, OFF or glTF";
 constexpr std::string_view kPoints =
     "it holds points without triangles; reconstruct a surface and export it as a PLY";
 constexpr std::string_view kVolume =
@@ -42,7 +42,6 @@ constexpr Signature kSignatures[] = {
     {0, "7z\xbc\xaf\x27\x1c"sv, {"a 7z archive", kUnpack}},
     {0, "Rar!\x1a\x07"sv, {"a RAR archive", kUnpack}},
     {257, "ustar"sv, {"a tar archive", kUnpack}},
-    {0, "glTF"sv, {"a binary glTF file (GLB)", kExport}},
     {0, "Kaydara FBX Binary"sv, {"an FBX file", kExport}},
     {0, "; FBX"sv, {"an FBX file in text form", kExport}},
     {0,
@@ -163,9 +162,7 @@ std::optional<ForeignFormat> foreign_format(std::string_view file) noexcept {
   if (file.starts_with("PK\x03\x04")) return marked(file, kZipMarks);
   const std::string_view text = text_of(file);
   if (text.starts_with('<')) return marked(text, kXmlMarks);
-  if (is_json(text))
-    return has_word(text, "\"asset\"") ? ForeignFormat{"a glTF file", kExport}
-                                       : ForeignFormat{"a JSON file (glTF is one)", kExport};
+  if (is_json(text)) return ForeignFormat{"a JSON file and no glTF", kExport};
   if (text.starts_with('{') && has_word(text.substr(0, 80), "off"))
     return ForeignFormat{"an object of Geomview in braces", "give the OFF in it alone"};
   if (is_wide_text(file)) return ForeignFormat{"a text in UTF-16", "save it as UTF-8"};

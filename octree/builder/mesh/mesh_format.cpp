@@ -4,6 +4,7 @@
 #include <string>
 
 #include "octree/builder/mesh/foreign_format.h"
+#include "octree/builder/mesh/gltf/gltf_file.h"
 #include "octree/builder/mesh/off_reader.h"
 #include "octree/builder/mesh/ply_reader.h"
 #include "octree/builder/mesh/stl_reader.h"
@@ -48,10 +49,11 @@ Result<MeshFormat> detect_format(const MeshFile& file, const std::filesystem::pa
   if (!prefix) return prefix.error();
   if (is_ply(*prefix)) return MeshFormat::kPly;
   if (has_binary_stl_size(*prefix, file.size_bytes())) return MeshFormat::kStlBinary;
+  const std::string extension = lower_extension(path);
+  if (is_glb(*prefix) || is_gltf_json(*prefix, extension == ".gltf")) return MeshFormat::kGltf;
   if (const auto foreign = foreign_format(*prefix)) return refusal(*foreign);
   if (is_ascii_stl(*prefix)) return MeshFormat::kStlAscii;
   if (is_off(*prefix)) return MeshFormat::kOff;
-  const std::string extension = lower_extension(path);
   if (extension == ".obj") return MeshFormat::kObj;
   // An OFF without a keyword, as old files are.
   if (extension == ".off") return MeshFormat::kOff;

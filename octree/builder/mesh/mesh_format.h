@@ -9,7 +9,7 @@
 
 namespace planetree::octree {
 
-enum class MeshFormat : std::uint8_t { kPly, kStlBinary, kStlAscii, kOff, kObj, kUnknown };
+enum class MeshFormat : std::uint8_t { kPly, kStlBinary, kStlAscii, kOff, kObj, kGltf, kUnknown };
 
 /// Finds how a mesh file is compressed: by its content, unless that is a whole binary STL.
 /// errors  those of MeshFile::read().

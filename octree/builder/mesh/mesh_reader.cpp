@@ -4,6 +4,7 @@
 #include <new>
 #include <variant>
 
+#include "octree/builder/mesh/gltf/gltf_reader.h"
 #include "octree/builder/mesh/mesh_arrays.h"
 #include "octree/builder/mesh/mesh_format.h"
 #include "octree/builder/mesh/obj_reader.h"
@@ -16,8 +17,9 @@
 namespace planetree::octree {
 namespace {
 
+/// is_unpacked  whether the file is the content of a compressed one.
 Result<MeshSummary> read_open(const MeshFile& file, const std::filesystem::path& path,
-                              TriangleSink& sink, MeshScratch& scratch,
+                              bool is_unpacked, TriangleSink& sink, MeshScratch& scratch,
                               const MeshOptions& options) {
   const Result<MeshFormat> format = detect_format(file, path);
   if (!format) return format.error();
@@ -32,13 +34,15 @@ Result<MeshSummary> read_open(const MeshFile& file, const std::filesystem::path&
       return read_off(file, sink, scratch);
     case MeshFormat::kObj:
       return read_obj(file, sink, scratch);
+    case MeshFormat::kGltf:
+      return read_gltf(file, is_unpacked ? std::filesystem::path() : path, sink, scratch);
     case MeshFormat::kUnknown:
       break;
   }
   return make_error(
       ErrorCode::kBadInput, Error::kNowhere, 0,
-      "byte 0: neither a PLY, an STL nor an OFF, and not named .obj; give a PLY, STL, "
-      "OBJ or OFF mesh (an OBJ needs its extension)");
+      "byte 0: neither a PLY, an STL, an OFF nor a glTF, and not named .obj; give a PLY, STL, "
+      "OBJ, OFF or glTF mesh (an OBJ needs its extension)");
 }
 
 /// Passes everything on to a sink. Progress continues after that of the unpacking.
@@ -69,7 +73,7 @@ Result<MeshSummary> read_packed(const MeshFile& packed, Packing packing,
   if (!content) return content.error();
   if (const auto noted = scratch.note_unpacked(*content); !noted) return noted.error();
   AfterUnpacking rest(sink, packed.size_bytes());
-  return read_open(*content, unpacked_path(path), rest, scratch, options);
+  return read_open(*content, unpacked_path(path), true, rest, scratch, options);
 }
 
 Result<MeshSummary> read_file(const std::filesystem::path& path, TriangleSink& sink,
@@ -79,7 +83,7 @@ Result<MeshSummary> read_file(const std::filesystem::path& path, TriangleSink& s
     if (!file) return file.error();
     const Result<Packing> packing = detect_packing(*file);
     if (!packing) return packing.error();
-    return *packing == Packing::kNone ? read_open(*file, path, sink, scratch, options)
+    return *packing == Packing::kNone ? read_open(*file, path, false, sink, scratch, options)
                                       : read_packed(*file, *packing, path, sink, scratch, options);
   } catch (const std::bad_alloc&) {
     return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,

@@ -6,8 +6,8 @@
 #include "planetree/error.h"
 
 /// Readers of triangle meshes: files in PLY (ascii and both binary byte orders), STL (binary and
-/// ascii), OBJ and OFF (ascii and binary), meshes in memory, and callbacks. They stream one
-/// triangle at a time.
+/// ascii), OBJ, OFF (ascii and binary) and glTF 2.0 (JSON and binary), meshes in memory, and
+/// callbacks. They stream one triangle at a time.
 ///
 /// A triangle's index is its position in the input. A polygon of n corners is split into n - 2
 /// triangles (PolygonTriangulator): its fan (0, i, i + 1) if that covers it without overlap. A
@@ -24,7 +24,8 @@ struct MeshOptions {
 
 /// Reads a mesh into `sink`. The content of a file decides the format: the first line of a PLY;
 /// the size of a binary STL, which is exactly what its count implies (even if it begins with
-/// "solid"); "solid" of an ascii STL; the keyword of an OFF. Otherwise the extension decides: for
+/// "solid"); "solid" of an ascii STL; the keyword of an OFF; "glTF" of a GLB, and the names of a
+/// glTF's lists in JSON. Otherwise the extension decides: for
 /// an OBJ, for an OFF without a keyword, and for an STL with a wrong size. A file that is
 /// compressed by gzip or zstd is unpacked into a temporary file first (packing.h). The content is
 /// then read under the path without .gz or .zst. Places in messages are those of the content.

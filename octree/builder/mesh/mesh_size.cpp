@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "octree/builder/mesh/gltf/gltf_reader.h"
 #include "octree/builder/mesh/header_prefix.h"
 #include "octree/builder/mesh/mesh_arrays.h"
 #include "octree/builder/mesh/mesh_format.h"
@@ -174,6 +175,15 @@ MeshSize size_of_ascii_stl(const Sample& sample) {
   return {triangles, corners.vertices_of(triangles), true};
 }
 
+Result<MeshSize> size_of_scene(const MeshFile& file) {
+  const Result<GltfSize> declared = size_of_gltf(file);
+  if (!declared && declared.error().code != ErrorCode::kBadInput) return declared.error();
+  if (!declared) return MeshSize{};
+  MeshSize size{declared->triangles, declared->vertices, declared->float64};
+  size.unpacked_bytes = declared->embedded_bytes;
+  return size;
+}
+
 template <class SizeOf>
 Result<MeshSize> size_by(const SizeOf& size_of, const Result<Sample>& sample) {
   if (!sample) return sample.error();
@@ -232,6 +242,8 @@ Result<MeshSize> MeshSize::estimate(const MeshFile& file, const std::filesystem:
       return size_by(size_of_ascii_stl, Sample::of(file));
     case MeshFormat::kObj:
       return size_by(size_of_obj, Sample::of(file));
+    case MeshFormat::kGltf:
+      return size_of_scene(file);
     case MeshFormat::kUnknown:
       break;
   }

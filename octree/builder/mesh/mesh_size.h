@@ -17,8 +17,9 @@ struct MeshSize {
   std::uint64_t vertices = 0;
   bool float64 = false;          ///< coordinates may need float64, by format and header
   bool is_indexed_text = false;  ///< a text whose vertices are spilled while it is read
-  /// Length that a compressed file states for its content, at least its own; 0 for other files. The
-  /// other members are 0 then: they are estimated after the content is unpacked.
+  /// Length that a compressed file states for its content, at least its own. The other members are
+  /// 0 then: they are estimated after the content is unpacked. Of a glTF, the length of the buffers
+  /// that are embedded in it. 0 for other files.
   std::uint64_t unpacked_bytes = 0;
 
   /// Estimates the size of a file from its header and its length, or from samples of a text that

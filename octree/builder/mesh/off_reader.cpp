@@ -11,8 +11,8 @@
 #include "octree/builder/mesh/header_prefix.h"
 #include "octree/builder/mesh/ply_header.h"
 #include "octree/builder/mesh/ply_reader.h"
-#include "octree/builder/mesh/ply_scalar.h"
 #include "octree/builder/mesh/stream/mesh_text.h"
+#include "octree/builder/mesh/stream/scalar_type.h"
 
 namespace planetree::octree {
 
@@ -65,16 +65,16 @@ std::optional<OffKeyword> take_keyword(std::string_view& word) noexcept {
 /// declared precision, so that the widest is taken.
 PlyHeader records_of(PlyEncoding encoding, std::size_t more_numbers) {
   const bool is_ascii = encoding == PlyEncoding::kAscii;
-  const PlyType real = is_ascii ? PlyType::kFloat64 : PlyType::kFloat32;
+  const ScalarType real = is_ascii ? ScalarType::kFloat64 : ScalarType::kFloat32;
   PlyHeader header;
   header.encoding = encoding;
   header.has_loose_lines = is_ascii;
   header.elements = {{"vertex", 0, {}}, {"face", 0, {}}};
   for (const char* name : {"x", "y", "z"}) header.elements[0].properties.push_back({name, real});
-  header.elements[1].properties = {{"corners", PlyType::kInt32, true, PlyType::kInt32}};
+  header.elements[1].properties = {{"corners", ScalarType::kInt32, true, ScalarType::kInt32}};
   if (!is_ascii) {
     header.elements[0].properties.resize(3 + more_numbers, {"more", real});
-    header.elements[1].properties.push_back({"colour", real, true, PlyType::kInt32});
+    header.elements[1].properties.push_back({"colour", real, true, ScalarType::kInt32});
   }
   header.vertex_element = 0;
   header.face_element = 1;

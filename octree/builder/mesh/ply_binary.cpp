@@ -18,7 +18,7 @@ bool needs_swap(PlyEncoding encoding) {
 /// A face whose list is in the file.
 class PlyBinary::Face {
  public:
-  Face(std::uint64_t record, const ListSpan& list, PlyType type, bool swap, MeshWindow& window)
+  Face(std::uint64_t record, const ListSpan& list, ScalarType type, bool swap, MeshWindow& window)
       : record_(record),
         list_(list),
         type_(type),
@@ -40,7 +40,7 @@ class PlyBinary::Face {
  private:
   const std::uint64_t record_;
   const ListSpan& list_;
-  const PlyType type_;
+  const ScalarType type_;
   const std::uint64_t index_bytes_;
   const bool swap_;
   MeshWindow& window_;
@@ -92,7 +92,7 @@ Result<TextPosition> PlyBinary::spill_vertices(TextPosition begin) {
     if (!walked) return walked.error();
     std::array<double, 3> values = {};
     for (std::size_t axis = 0; axis < values.size(); ++axis) {
-      const PlyType type = header_.coordinate_type(axis);
+      const ScalarType type = header_.coordinate_type(axis);
       const std::byte* const at =
           records_.window().at(offsets[header_.coordinates[axis]], size_bytes(type));
       if (at == nullptr) return records_.window().failure();
@@ -129,7 +129,7 @@ Result<TextPosition> PlyBinary::faces(TextPosition begin) {
 template <class Take>
 Result<FacePosition> PlyBinary::each_face(const FacePosition& from, const Take& take) {
   const PlyElement& element = header_.faces();
-  const PlyType index_type = element.properties[header_.index_list].type;
+  const ScalarType index_type = element.properties[header_.index_list].type;
   std::uint64_t position = from.position.offset;
   ListSpan list;
   for (std::uint64_t face = from.record; face < element.count; ++face) {
@@ -148,7 +148,7 @@ Result<FacePosition> PlyBinary::each_face(const FacePosition& from, const Take& 
 template <class Take>
 Result<FacePosition> PlyBinary::each_triangle(const FacePosition& from, const Take& take) {
   const PlyElement& element = header_.faces();
-  const PlyType type = element.properties[header_.index_list].type;
+  const ScalarType type = element.properties[header_.index_list].type;
   const std::uint64_t index_bytes = size_bytes(type);
   // Without a triangle before it, reading begins at the first list again.
   bool resumes = from.record > 0;

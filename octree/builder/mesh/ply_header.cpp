@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "octree/builder/mesh/ply_type.h"
+
 namespace planetree::octree {
 
 namespace {
@@ -109,14 +111,14 @@ class HeaderParser {
     std::string_view word = take_word(rest);
     if (is_same_word(word, "list")) {
       property.is_list = true;
-      const std::optional<PlyType> count_type = ply_type_named(take_word(rest));
+      const std::optional<ScalarType> count_type = ply_type_named(take_word(rest));
       if (!count_type || !is_integer(*count_type)) {
         return error("a list whose length is of no integer type");
       }
       property.count_type = *count_type;
       word = take_word(rest);
     }
-    const std::optional<PlyType> type = ply_type_named(word);
+    const std::optional<ScalarType> type = ply_type_named(word);
     if (!type) return error("type '" + printable(word) + "' is unknown");
     property.type = *type;
     property.name = take_word(rest);
@@ -221,7 +223,7 @@ bool PlyHeader::float32() const {
 void PlyHeader::widen_text() {
   if (encoding != PlyEncoding::kAscii) return;
   for (const std::size_t i : coordinates)
-    elements[vertex_element].properties[i].type = PlyType::kFloat64;
+    elements[vertex_element].properties[i].type = ScalarType::kFloat64;
 }
 
 bool is_ply(std::string_view file) noexcept {

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "octree/builder/mesh/ply_scalar.h"
 #include "octree/builder/mesh/stream/mesh_text.h"
+#include "octree/builder/mesh/stream/scalar_type.h"
 #include "planetree/error.h"
 
 namespace planetree::octree {
@@ -19,9 +19,9 @@ enum class PlyEncoding : std::uint8_t { kAscii, kBinaryLittleEndian, kBinaryBigE
 
 struct PlyProperty {
   std::string name;
-  PlyType type = PlyType::kFloat32;  ///< type of the value, or of a list's items
+  ScalarType type = ScalarType::kFloat32;  ///< type of the value, or of a list's items
   bool is_list = false;
-  PlyType count_type = PlyType::kUint8;  ///< type of a list's length; an integer type
+  ScalarType count_type = ScalarType::kUint8;  ///< type of a list's length; an integer type
 };
 
 struct PlyElement {
@@ -56,7 +56,7 @@ struct PlyHeader {
 
   [[nodiscard]] const PlyElement& vertices() const { return elements[vertex_element]; }
   [[nodiscard]] const PlyElement& faces() const { return elements[face_element]; }
-  [[nodiscard]] PlyType coordinate_type(std::size_t axis) const {
+  [[nodiscard]] ScalarType coordinate_type(std::size_t axis) const {
     return vertices().properties[coordinates[axis]].type;
   }
   /// Whether float32 holds every value of the declared coordinate types.

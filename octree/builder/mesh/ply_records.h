@@ -5,9 +5,9 @@
 #include <cstdint>
 
 #include "octree/builder/mesh/ply_header.h"
-#include "octree/builder/mesh/ply_scalar.h"
 #include "octree/builder/mesh/stream/mesh_file.h"
 #include "octree/builder/mesh/stream/mesh_window.h"
+#include "octree/builder/mesh/stream/scalar_type.h"
 #include "planetree/error.h"
 
 namespace planetree::octree {

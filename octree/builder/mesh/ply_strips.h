@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <limits>
 
-#include "octree/builder/mesh/ply_scalar.h"
 #include "octree/builder/mesh/stream/indexed_face.h"
 #include "octree/builder/mesh/stream/mesh_note.h"
+#include "octree/builder/mesh/stream/scalar_type.h"
 
 namespace planetree::octree {
 
@@ -18,7 +18,7 @@ namespace planetree::octree {
 class PlyStrips {
  public:
   /// type  of the indices in the file.
-  explicit PlyStrips(PlyType type) : type_(type) {}
+  explicit PlyStrips(ScalarType type) : type_(type) {}
 
   void begin_list() { length_ = 0; }
   /// Takes the next index of a list. True if it makes a triangle.
@@ -48,11 +48,11 @@ class PlyStrips {
  private:
   [[nodiscard]] bool is_end(std::int64_t index) const {
     if (index == -1) return true;
-    if (type_ == PlyType::kUint32) return index == std::numeric_limits<std::uint32_t>::max();
-    return type_ == PlyType::kUint64 && index == std::numeric_limits<std::int64_t>::max();
+    if (type_ == ScalarType::kUint32) return index == std::numeric_limits<std::uint32_t>::max();
+    return type_ == ScalarType::kUint64 && index == std::numeric_limits<std::int64_t>::max();
   }
 
-  PlyType type_;
+  ScalarType type_;
   std::array<std::int64_t, 3> last_ = {}, triangle_ = {};
   std::uint64_t length_ = 0;  ///< of the strip so far
   std::uint64_t number_ = 0;  ///< of the next triangle

@@ -14,7 +14,7 @@ PlyVertices::PlyVertices(const MeshFile& file, const PlyHeader& header, bool swa
       swap_(swap),
       float32_(header.float32()),
       record_bytes_(header.vertices().min_record_bytes()) {
-  const PlyType plain = float32_ ? PlyType::kFloat32 : PlyType::kFloat64;
+  const ScalarType plain = float32_ ? ScalarType::kFloat32 : ScalarType::kFloat64;
   plain_ = !swap && record_bytes_ == position_bytes();
   for (std::size_t axis = 0; axis < 3; ++axis) {
     offsets_[axis] = header.vertices().offset_of(header.coordinates[axis]);

@@ -38,7 +38,7 @@ class PlyVertices final : public MeshVertices {
   std::uint64_t begin_ = 0, count_ = 0;
   std::uint64_t record_bytes_ = 0;
   std::array<std::uint64_t, 3> offsets_ = {};  ///< offsets of x, y and z in a record
-  std::array<PlyType, 3> types_ = {};
+  std::array<ScalarType, 3> types_ = {};
   bool plain_ = true;               ///< records have the form that MeshVertices has
   std::vector<std::byte> records_;  ///< records as in the file
 };

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "octree/builder/mesh/ply_scalar.h"
 #include "octree/builder/mesh/stream/fan_emitter.h"
 #include "octree/builder/mesh/stream/mesh_text.h"
 #include "octree/builder/mesh/stream/mesh_window.h"
+#include "octree/builder/mesh/stream/scalar_type.h"
 
 namespace planetree::octree {
 

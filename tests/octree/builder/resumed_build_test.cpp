@@ -9,6 +9,7 @@
 #include <string>
 
 #include "storage/spill/work_directory.h"
+#include "tests/octree/builder/mesh/gltf/gltf_writer.h"
 #include "tests/octree/builder/resumed_build.h"
 
 namespace planetree::octree {
@@ -169,6 +170,29 @@ TEST_F(ResumedBuild, RestartsIfTheInputChanged) {
   Soup other = sphere(2);
   other[50][1].x *= 1.5;
   write(other);
+  expect_completed(whole());
+  EXPECT_EQ(recorder_.start,
+            "the checkpoint cannot be resumed: the input has changed; building from the start");
+}
+
+// The file of the buffers has other positions, and the glTF is the same.
+TEST_F(ResumedBuild, RestartsIfAFileBesideTheInputChanged) {
+  const auto write_scene = [this](const Soup& soup) {
+    GltfWriter scene;
+    std::vector<Position> corners;
+    for (const auto& triangle : soup)
+      for (const Vec3& corner : triangle)
+        corners.push_back({static_cast<float>(corner.x), static_cast<float>(corner.y),
+                           static_cast<float>(corner.z)});
+    scene.mesh({scene.primitive(scene.positions(corners))});
+    std::ofstream(meshes_ / "model.bin", std::ios::binary) << scene.buffer.str();
+    return scene.beside("model.bin");
+  };
+  std::ofstream(mesh_, std::ios::binary) << write_scene(sphere(2));
+  stop_in(BuildPhase::kBuildingMask, 4);
+  Soup other = sphere(2);
+  other[50][1].x *= 1.5;
+  write_scene(other);
   expect_completed(whole());
   EXPECT_EQ(recorder_.start,
             "the checkpoint cannot be resumed: the input has changed; building from the start");

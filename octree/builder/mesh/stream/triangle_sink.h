@@ -61,7 +61,8 @@ class TriangleSink {
                        const SkippedRecord& why) = 0;
 
   /// Reports progress about every 4 MiB and at the end; bytes_done never decreases. bytes_total is
-  /// the file's size, or twice that for a format that is read twice (OBJ). Where corners have to be
+  /// the file's size, or twice that for a format that is read twice (OBJ), or the size of all
+  /// indices (glTF). Where corners have to be
   /// sorted, it grows by the work that this adds. An error ends the reading and is returned from
   /// it.
   virtual Result<void> progress(std::uint64_t bytes_done, std::uint64_t bytes_total) = 0;

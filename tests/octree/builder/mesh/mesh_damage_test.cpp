@@ -71,7 +71,7 @@ void expect_lines(const Reading& reading,
 class MeshWithAnEnd : public testing::TestWithParam<MeshFormat> {};
 INSTANTIATE_TEST_SUITE_P(All, MeshWithAnEnd,
                          testing::ValuesIn(formats_that([](const MeshFormat& format) {
-                           return format.has_counts || !format.is_indexed;
+                           return format.has_end;
                          })),
                          name_of);
 
@@ -136,7 +136,7 @@ TEST_P(MeshWithCounts, IsRefusedWhenCountsAreWrong) {
 class MeshWithIndices : public testing::TestWithParam<MeshFormat> {};
 INSTANTIATE_TEST_SUITE_P(All, MeshWithIndices,
                          testing::ValuesIn(formats_that([](const MeshFormat& format) {
-                           return format.is_indexed;
+                           return format.is_indexed && format.has_polygons;
                          })),
                          name_of);
 

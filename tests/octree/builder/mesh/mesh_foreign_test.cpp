@@ -37,9 +37,7 @@ TEST(ForeignFormat, KnowsCompressedFilesAndArchives) {
 }
 
 TEST(ForeignFormat, KnowsOtherModels) {
-  EXPECT_EQ(name_of("glTF\2\0\0\0"s), "a binary glTF file (GLB)");
-  EXPECT_EQ(name_of("{\n  \"asset\": {\"version\": \"2.0\"}"), "a glTF file");
-  EXPECT_EQ(name_of("{ \"vertices\": ["), "a JSON file (glTF is one)");
+  EXPECT_EQ(name_of("{ \"vertices\": ["), "a JSON file and no glTF");
   EXPECT_EQ(name_of("Kaydara FBX Binary  \0"s), "an FBX file");
   EXPECT_EQ(name_of("; FBX 7.3.0 project file"), "an FBX file in text form");
   EXPECT_EQ(name_of("# vtk DataFile Version 3.0"), "a VTK file");
@@ -101,7 +99,7 @@ TEST(ForeignFormat, IsRefusedByNameUnderAnyExtension) {
 
 // So that a build ends before it takes any space.
 TEST(ForeignFormat, IsRefusedByTheEstimateOfItsSize) {
-  for (const std::string& bytes : {"glTF\2\0\0\0"s, ""s, "\xfe\xff\0p"s}) {
+  for (const std::string& bytes : {"BZh91AY&SY"s, ""s, "\xfe\xff\0p"s}) {
     const TemporaryFile file(bytes, ".ply");
     const auto size = MeshSize::estimate(file.path());
     ASSERT_FALSE(size);

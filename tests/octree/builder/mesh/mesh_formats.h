@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/octree/builder/mesh/gltf/gltf_writer.h"
 #include "tests/octree/builder/mesh/mesh_recorder.h"
 
 /// One mesh, valid or not, written in every format that a reader knows.
@@ -30,6 +31,7 @@ struct MeshFormat {
   bool is_indexed;    ///< faces refer to vertices by index instead of repeating them
   bool has_polygons;  ///< faces may have any number of corners
   bool is_text;
+  bool has_end;  ///< no part of a file is a whole one, but for a last newline
   std::string (*write)(const PlainMesh& mesh, const CountError& lie);
 };
 
@@ -148,6 +150,16 @@ inline std::string stl_binary(const PlainMesh& mesh, const CountError& lie) {
   return bytes.str();
 }
 
+inline std::string glb(const PlainMesh& mesh, const CountError&) {
+  std::vector<std::uint32_t> corners;
+  for (const auto& face : mesh.faces)
+    for (const std::int64_t index : face) corners.push_back(static_cast<std::uint32_t>(index));
+  GltfWriter scene;
+  const std::size_t positions = scene.positions(mesh.vertices);
+  scene.mesh({GltfWriter::primitive(positions, scene.indices(corners, Component::kUint32))});
+  return scene.glb();
+}
+
 }  // namespace mesh_formats
 
 /// The formats for which `holds` is true.
@@ -156,14 +168,15 @@ std::vector<MeshFormat> formats_that(const Holds& holds) {
   namespace f = mesh_formats;
   std::vector<MeshFormat> some;
   for (const MeshFormat& format : {
-           MeshFormat{"PlyAscii", ".ply", true, true, true, true, f::ply_ascii},
-           MeshFormat{"PlyLittleEndian", ".ply", true, true, true, false, f::ply_little},
-           MeshFormat{"PlyBigEndian", ".ply", true, true, true, false, f::ply_big},
-           MeshFormat{"StlAscii", ".stl", false, false, true, true, f::stl_ascii},
-           MeshFormat{"StlBinary", ".stl", true, false, false, false, f::stl_binary},
-           MeshFormat{"Obj", ".obj", false, true, true, true, f::obj},
-           MeshFormat{"OffAscii", ".off", true, true, true, true, f::off_ascii},
-           MeshFormat{"OffBinary", ".off", true, true, true, false, f::off_binary},
+           MeshFormat{"PlyAscii", ".ply", true, true, true, true, true, f::ply_ascii},
+           MeshFormat{"PlyLittleEndian", ".ply", true, true, true, false, true, f::ply_little},
+           MeshFormat{"PlyBigEndian", ".ply", true, true, true, false, true, f::ply_big},
+           MeshFormat{"StlAscii", ".stl", false, false, true, true, true, f::stl_ascii},
+           MeshFormat{"StlBinary", ".stl", true, false, false, false, true, f::stl_binary},
+           MeshFormat{"Obj", ".obj", false, true, true, true, false, f::obj},
+           MeshFormat{"OffAscii", ".off", true, true, true, true, true, f::off_ascii},
+           MeshFormat{"OffBinary", ".off", true, true, true, false, true, f::off_binary},
+           MeshFormat{"Glb", ".glb", false, true, false, false, true, f::glb},
        })
     if (holds(format)) some.push_back(format);
   return some;

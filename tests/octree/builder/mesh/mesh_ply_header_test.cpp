@@ -33,9 +33,9 @@ TEST(PlyHeader, FindsVerticesAndFaces) {
   EXPECT_EQ(header->faces().count, 7U);
   EXPECT_EQ(header->vertices().count, 9U);
   EXPECT_EQ(header->coordinates, (std::array<std::size_t, 3>{2, 1, 0}));
-  EXPECT_EQ(header->coordinate_type(0), PlyType::kFloat32);
-  EXPECT_EQ(header->coordinate_type(1), PlyType::kInt16);
-  EXPECT_EQ(header->coordinate_type(2), PlyType::kFloat64);
+  EXPECT_EQ(header->coordinate_type(0), ScalarType::kFloat32);
+  EXPECT_EQ(header->coordinate_type(1), ScalarType::kInt16);
+  EXPECT_EQ(header->coordinate_type(2), ScalarType::kFloat64);
   EXPECT_EQ(header->body.offset, text.size());
   EXPECT_EQ(header->body.line, 12U);
   EXPECT_FALSE(header->float32());
@@ -101,22 +101,26 @@ TEST(PlyHeader, TakesStripsOrFaces) {
 }
 
 TEST(PlyHeader, AcceptsBothNamesOfEveryType) {
-  const std::pair<const char*, PlyType> types[] = {
-      {"char", PlyType::kInt8},       {"int8", PlyType::kInt8},       {"uchar", PlyType::kUint8},
-      {"uint8", PlyType::kUint8},     {"short", PlyType::kInt16},     {"int16", PlyType::kInt16},
-      {"ushort", PlyType::kUint16},   {"uint16", PlyType::kUint16},   {"int", PlyType::kInt32},
-      {"int32", PlyType::kInt32},     {"uint", PlyType::kUint32},     {"uint32", PlyType::kUint32},
-      {"float", PlyType::kFloat32},   {"float32", PlyType::kFloat32}, {"double", PlyType::kFloat64},
-      {"float64", PlyType::kFloat64}, {"long", PlyType::kInt64},      {"int64", PlyType::kInt64},
-      {"ulong", PlyType::kUint64},    {"uint64", PlyType::kUint64},   {"int64_t", PlyType::kInt64},
-      {"uint8_t", PlyType::kUint8},   {"UCHAR", PlyType::kUint8}};
+  const std::pair<const char*, ScalarType> types[] = {
+      {"char", ScalarType::kInt8},      {"int8", ScalarType::kInt8},
+      {"uchar", ScalarType::kUint8},    {"uint8", ScalarType::kUint8},
+      {"short", ScalarType::kInt16},    {"int16", ScalarType::kInt16},
+      {"ushort", ScalarType::kUint16},  {"uint16", ScalarType::kUint16},
+      {"int", ScalarType::kInt32},      {"int32", ScalarType::kInt32},
+      {"uint", ScalarType::kUint32},    {"uint32", ScalarType::kUint32},
+      {"float", ScalarType::kFloat32},  {"float32", ScalarType::kFloat32},
+      {"double", ScalarType::kFloat64}, {"float64", ScalarType::kFloat64},
+      {"long", ScalarType::kInt64},     {"int64", ScalarType::kInt64},
+      {"ulong", ScalarType::kUint64},   {"uint64", ScalarType::kUint64},
+      {"int64_t", ScalarType::kInt64},  {"uint8_t", ScalarType::kUint8},
+      {"UCHAR", ScalarType::kUint8}};
   for (const auto& [name, type] : types) {
     const Result<PlyHeader> header =
         parse_ply_header("ply\nformat ascii 1.0\nelement vertex 3\nproperty " + std::string(name) +
                          " x\nproperty float y\nproperty float z\n" + kFace + "end_header\n");
     ASSERT_TRUE(header) << name;
     EXPECT_EQ(header->coordinate_type(0), type) << name;
-    EXPECT_EQ(header->float32(), type == PlyType::kFloat32 || size_bytes(type) <= 2) << name;
+    EXPECT_EQ(header->float32(), type == ScalarType::kFloat32 || size_bytes(type) <= 2) << name;
   }
 }
 

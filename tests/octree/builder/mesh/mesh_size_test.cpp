@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "tests/octree/builder/mesh/gltf/gltf_writer.h"
 #include "tests/octree/builder/mesh/mesh_recorder.h"
 
 namespace planetree::octree {
@@ -62,6 +63,28 @@ TEST(MeshSize, EstimatesNothingFromAWrongHeader) {
     }
   expect_size(estimate("ply\nformat nonsense\n", ".ply"), 0, 0, false);
   expect_size(estimate("nothing", ".txt"), 0, 0, false);
+  expect_size(estimate("{\"asset\": 2}", ".gltf"), 0, 0, false);
+}
+
+// What two nodes show is there twice, and one of them moves it.
+TEST(MeshSize, CountsWhatAGltfShows) {
+  GltfWriter scene;
+  const std::size_t positions = scene.positions({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1}});
+  nlohmann::json strip = GltfWriter::primitive(positions), points = strip;
+  strip["mode"] = 5;
+  points["mode"] = 0;
+  scene.mesh(
+      {GltfWriter::primitive(positions, scene.indices({0, 1, 2, 2, 1, 3}, Component::kUint8)),
+       strip, points});
+  scene.node({{"mesh", 0}});
+  const MeshSize once = estimate(scene.glb(), ".glb");
+  expect_size(once, 2 + 4, 8, false);
+  EXPECT_EQ(once.unpacked_bytes, 0U);
+  scene.node({{"mesh", 0}, {"translation", {0, 0, 1}}});
+  const MeshSize twice = estimate(scene.embedded(), ".gltf");
+  expect_size(twice, 12, 16, true);
+  EXPECT_GE(twice.unpacked_bytes, scene.buffer.str().size());
+  EXPECT_LE(twice.unpacked_bytes, scene.buffer.str().size() + 3);
 }
 
 TEST(MeshSize, CountsTheFacetsOfAnStl) {
