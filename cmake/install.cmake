@@ -41,13 +41,13 @@ function(planetree_install_library target)
   install(FILES ${generated}/planetreeConfig.cmake ${generated}/planetreeConfigVersion.cmake
     DESTINATION ${package_dir} ${development})
 
-  # An archive leaves its own needs to the program that links it; a shared object
-  # brings them along.
+  # An archive leaves its own needs to the program that links it, such as the C++ library to one in
+  # C; a shared object brings them along.
   set(pkgconfig_requires "liblz4 liburing >= 2.2 libxxhash libzstd zlib libhwy-contrib libhwy tbb")
-  set(pkgconfig_pthread " -pthread")
+  set(pkgconfig_libraries " -pthread -lstdc++ -lm")
   if(planetree_is_shared)
     set(pkgconfig_requires "")
-    set(pkgconfig_pthread "")
+    set(pkgconfig_libraries "")
   endif()
   file(RELATIVE_PATH pkgconfig_to_prefix
     ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
