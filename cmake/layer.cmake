@@ -1,3 +1,10 @@
+# CMAKE_UNITY_BUILD compiles several sources of a layer at once, as the build of the wheel does, to
+# take less time. These layers have kernels, whose sources Highway includes again for each
+# instruction set, or names that two sources have in common.
+set(planetree_separate_layers
+  planetree_geometry planetree_page planetree_traversal planetree_nearest planetree_winding
+  planetree_mask planetree_builder_surface planetree_builder_mask planetree_query_answer)
+
 # planetree_add_layer(NAME [EXCEPT files...] [DEPENDS targets...] [HEADERS headers...]
 #                     [HEADERS_OF target])
 #
@@ -22,6 +29,9 @@ function(planetree_add_layer name)
   target_include_directories(${name}
     ${scope} ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
   target_link_libraries(${name} ${scope} ${layer_DEPENDS})
+  if(name IN_LIST planetree_separate_layers)
+    set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)
+  endif()
   if(layer_HEADERS)
     target_precompile_headers(${name} PRIVATE ${layer_HEADERS})
   elseif(layer_HEADERS_OF AND sources)
