@@ -229,7 +229,8 @@ void add_files(SubcommandOptions& subcommand, CompareArguments& arguments) {
   subcommand.require(subcommand.path(
       "other", "POINTS_OR_MESH", arguments.other,
       "What to compare, in model units. Points: text with one point a line (see --columns), PLY "
-      "without faces, .npy, or .f64 (raw little-endian float64 triples); - is standard input, all "
+      "without faces, LAS, .npy, or .f64 (raw little-endian float64 triples); - is standard input, "
+      "all "
       "but .f64. Mesh: any format that planetree build reads, also compressed"));
   static const std::map<std::string, InputKind> kinds = {{"points", InputKind::kPoints},
                                                          {"mesh", InputKind::kMesh}};

@@ -36,7 +36,8 @@ void add_files(SubcommandOptions& subcommand, Options& options) {
       subcommand.path(
           "points", "POINTS", arguments.points,
           "Query points, in model units: text with one point a line (see --columns), PLY (its "
-          "vertices), .npy (a NumPy array of three columns) or .f64 (raw little-endian float64 "
+          "vertices), LAS, .npy (a NumPy array of three columns) or .f64 (raw little-endian "
+          "float64 "
           "triples); - is standard input, all but .f64. With --ray or --sweep: rays or sweeps, as "
           "text, .npy or .f64"),
       "-");

@@ -253,8 +253,8 @@ void add_files(SubcommandOptions& subcommand, ThicknessArguments& arguments) {
       subcommand.path(
           "points", "POINTS", arguments.points,
           "Where to measure: at the surface points nearest to these, in model units. Text with one "
-          "point a line (see --columns), PLY (its vertices), .npy or .f64 (raw little-endian "
-          "float64 triples); - is standard input, all but .f64"),
+          "point a line (see --columns), PLY (its vertices), LAS, .npy or .f64 (raw "
+          "little-endian float64 triples); - is standard input, all but .f64"),
       "the middles of the model's triangles, see --spacing");
   add_columns(subcommand, arguments.columns);
   subcommand.path("-o,--output", "OUT.ply", arguments.output,

@@ -138,9 +138,11 @@ void add_trade(CLI::App& app, Console& console, std::function<int()>& action) {
       app, "trade", "Measure what allowed errors, limits of work and little memory save and cost");
   subcommand.require(
       subcommand.path("file", "FILE", options->file, "File that planetree build wrote"));
-  subcommand.path("--points", "POINTS", options->points,
-                  "Query the first points of this file (\"-\" is standard input) instead of three "
-                  "workloads of made points: uniform, near the surface, and along it");
+  subcommand.path(
+      "--points", "POINTS", options->points,
+      "Query the first points of this file, in any format that planetree query reads (\"-\" "
+      "is standard input), instead of three workloads of made points: uniform, near the surface, "
+      "and along it");
   subcommand.default_text(
       subcommand.count("--count", options->count, kMaxPoints, "Query points of each workload"),
       "2000");

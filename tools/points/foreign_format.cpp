@@ -24,7 +24,6 @@ struct Signature {
 };
 
 constexpr Signature kSignatures[] = {
-    {"LASF"sv, "a LAS or LAZ point cloud", kConvert},
     {"ASTM-E57"sv, "an E57 point cloud", kConvert},
     {"# .PCD"sv, "a PCD point cloud", kConvert},
     {"#.PCD"sv, "a PCD point cloud", kConvert},
@@ -59,7 +58,7 @@ constexpr Signature kSignatures[] = {
 
 Error refusal(const RowShape& shape, const char* name, const char* remedy) {
   std::string convert = std::string("save its ") + shape.noun + "s as CSV";
-  convert += shape.kind == RowKind::kPoint ? ", PLY, .npy or .f64" : ", .npy or .f64";
+  convert += shape.kind == RowKind::kPoint ? ", PLY, LAS, .npy or .f64" : ", .npy or .f64";
   return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
                     "this is %s, not a list of %ss; %s", name, shape.noun,
                     *remedy == 0 ? convert.c_str() : remedy);
@@ -145,7 +144,7 @@ std::optional<Error> find_foreign_format(std::string_view front,
   if (binary != front.end())
     return make_error(
         ErrorCode::kBadInput, Error::kNowhere, static_cast<std::uint64_t>(binary - front.begin()),
-        "this is binary data, not text; give CSV, PLY, .npy, or raw float64 in a file "
+        "this is binary data, not text; give CSV, PLY, LAS, .npy, or raw float64 in a file "
         "named .f64");
   if (const char* const name = text_format(front)) return refusal(shape, name, kConvert);
   return std::nullopt;

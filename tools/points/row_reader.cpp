@@ -11,6 +11,7 @@
 #include "octree/builder/mesh/stream/mesh_file.h"
 #include "tools/cli/input_file.h"
 #include "tools/points/foreign_format.h"
+#include "tools/points/las_points.h"
 #include "tools/points/npy_rows.h"
 #include "tools/points/ply_points.h"
 #include "tools/points/raw_rows.h"
@@ -32,7 +33,7 @@ std::optional<std::uint64_t> regular_size(const std::string& path) {
 Error no_columns() {
   return make_error(
       ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
-      "--columns is for text; the columns of PLY, .npy and .f64 are known, so omit it");
+      "--columns is for text; the columns of PLY, LAS, .npy and .f64 are known, so omit it");
 }
 
 /// A PLY is read at several offsets, which a pipe does not allow.
@@ -42,9 +43,11 @@ Result<std::unique_ptr<PointReader>> open_ply(const std::string& path, InputFile
   return PlyPoints::create(points_name(path), *std::move(ply));
 }
 
-Error not_in_ply(const RowShape& shape) {
+/// PLY and LAS have points alone.
+Error points_alone(const char* format, const RowShape& shape) {
   return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
-                    "this is PLY, which has no %ss; give them as CSV, .npy or .f64", shape.noun);
+                    "this is %s, which has no %ss; give them as CSV, .npy or .f64", format,
+                    shape.noun);
 }
 
 template <class Row>
@@ -65,7 +68,15 @@ Result<std::unique_ptr<RowReader<Row>>> open_rows(const std::string& path,
       if (!choice.empty()) return no_columns();
       return open_ply(path, *std::move(file));
     } else {
-      return not_in_ply(shape);
+      return points_alone("PLY", shape);
+    }
+  }
+  if (is_las(*front)) {
+    if constexpr (std::is_same_v<Row, Vec3>) {
+      if (!choice.empty()) return no_columns();
+      return LasPoints::create(points_name(path), *std::move(file), *front);
+    } else {
+      return points_alone("LAS", shape);
     }
   }
   if (is_npy(*front)) {

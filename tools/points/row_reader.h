@@ -53,16 +53,16 @@ using SweepReader = RowReader<Sweep>;
 /// "standard input" for "-", otherwise the path itself.
 std::string points_name(const std::string& path);
 
-/// Opens a file of points: raw numbers if its extension is .f64, otherwise PLY, a NumPy array or
-/// text, as its first bytes tell. Standard input is read in the same way.
+/// Opens a file of points: raw numbers if its extension is .f64, otherwise PLY, LAS, a NumPy array
+/// or text, as its first bytes tell. Standard input is read in the same way.
 ///
 /// path            "-" is standard input
 /// standard_input  must outlive the reader
 /// choice          the columns of a text
 /// errors          kNotFound, kPermission, kReadFailed; kNoSpace: for a PLY from a pipe;
 ///                 kBadArgument: a choice of columns for what is no text; kBadInput: neither PLY,
-///                 a NumPy array nor a text of points, a damaged header, or one whose columns are
-///                 unknown
+///                 LAS, a NumPy array nor a text of points, a damaged header, or one whose columns
+///                 are unknown
 Result<std::unique_ptr<PointReader>> open_points(const std::string& path, std::FILE* standard_input,
                                                  const ColumnChoice& choice = {});
 /// Opens a file of rays: raw numbers, 8 a ray, a NumPy array of 6 or 8 columns, or text. Else as

@@ -28,7 +28,7 @@ TEST_F(Points, NameTheFormatTheyRefuse) {
   const std::vector<std::pair<std::string, const char*>> cases = {
       {"# .PCD v0.7 - Point Cloud Data\nVERSION 0.7\nFIELDS x y z\n1 2 3\n", "a PCD point cloud"},
       {"VERSION .7\nFIELDS x y z\nPOINTS 1\nDATA ascii\n1 2 3\n", "a PCD point cloud"},
-      {"LASF\0\0\0\0\1\2"s, "a LAS or LAZ"},
+      {"LASF\0\0\0\0\1\2"s, "its LAS header"},
       {"ASTM-E57\1\0\0\0"s, "an E57 point cloud"},
       {binary_stl(), "a binary STL mesh"},
       {"solid a\n facet normal 0 0 1\n  outer loop\n   vertex 1 2 3\n", "an STL mesh"},

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -18,7 +19,8 @@ namespace planetree::tools {
 
 struct Reading {
   std::vector<Vec3> points;
-  std::string error;  ///< empty if the end was reached
+  std::string error;                       ///< empty if the end was reached
+  std::uint64_t offset = Error::kNowhere;  ///< of the error
 };
 
 class Points : public testing::Test {
@@ -44,6 +46,7 @@ class Points : public testing::Test {
     Reading reading;
     if (!points) {
       reading.error = points.error().text;
+      reading.offset = points.error().offset;
       return reading;
     }
     std::vector<Vec3> buffer(piece);
@@ -51,6 +54,7 @@ class Points : public testing::Test {
       const auto count = (*points)->read(buffer);
       if (!count) {
         reading.error = count.error().text;
+        reading.offset = count.error().offset;
         return reading;
       }
       if (*count == 0) return reading;
