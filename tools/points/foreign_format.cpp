@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "octree/builder/mesh/foreign_format.h"
 #include "octree/builder/mesh/stream/mesh_text.h"
 #include "tools/points/sample_lines.h"
 #include "tools/points/text_layout.h"
@@ -140,6 +141,10 @@ std::optional<Error> find_foreign_format(std::string_view front,
     if (front.starts_with(signature.bytes) || text.starts_with(signature.bytes))
       return refusal(shape, signature.name, signature.remedy);
   if (is_utf16(front)) return refusal(shape, "UTF-16 text", kRecode);
+  // What a mesh is not either. Zero bytes are told as such below, with their place.
+  const auto known = octree::foreign_format(front);
+  if (known && front.find_first_not_of('\0') != std::string_view::npos)
+    return refusal(shape, std::string(known->name).c_str(), kConvert);
   const auto binary = std::find_if(front.begin(), front.end(), is_binary);
   if (binary != front.end())
     return make_error(

@@ -1,7 +1,6 @@
 #include "octree/builder/mesh/stl_reader.h"
 
 #include <algorithm>
-#include <bit>
 #include <cinttypes>
 #include <cstdint>
 #include <string>
@@ -23,18 +22,17 @@ constexpr std::uint64_t kAttributeBytes = 2;
 constexpr std::uint64_t kNormalBytes = 12;
 constexpr std::uint64_t kCornerBytes = 12;
 constexpr char kControlZ = '\x1a';
-constexpr bool kSwap = std::endian::native != std::endian::little;
 
 /// `prefix` has at least kFacetsOffset bytes.
 std::uint64_t facet_count(std::string_view prefix) {
   return load<std::uint32_t>(reinterpret_cast<const std::byte*>(prefix.data()) + kCountOffset,
-                             kSwap);
+                             kSwapLittle);
 }
 
 Vec3 corner_position(const std::byte* at) {
-  return {static_cast<double>(load<float>(at, kSwap)),
-          static_cast<double>(load<float>(at + 4, kSwap)),
-          static_cast<double>(load<float>(at + 8, kSwap))};
+  return {static_cast<double>(load<float>(at, kSwapLittle)),
+          static_cast<double>(load<float>(at + 4, kSwapLittle)),
+          static_cast<double>(load<float>(at + 8, kSwapLittle))};
 }
 
 /// Where the facets of a file are.
@@ -47,7 +45,7 @@ struct Facets {
 /// Length of a facet and of the bytes that its attribute counts. Zero if it cannot be read.
 std::uint64_t facet_bytes(MeshWindow& window, std::uint64_t offset) {
   const std::byte* const at = window.at(offset + kFacetBytes - kAttributeBytes, kAttributeBytes);
-  return at == nullptr ? 0 : kFacetBytes + load<std::uint16_t>(at, kSwap);
+  return at == nullptr ? 0 : kFacetBytes + load<std::uint16_t>(at, kSwapLittle);
 }
 
 /// Whether facets with payloads fill a file exactly.

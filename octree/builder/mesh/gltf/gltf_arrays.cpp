@@ -1,7 +1,6 @@
 #include "octree/builder/mesh/gltf/gltf_arrays.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "octree/builder/mesh/gltf/gltf_error.h"
 #include "octree/builder/mesh/stream/mesh_window.h"
@@ -10,11 +9,10 @@ namespace planetree::octree {
 
 namespace {
 
-constexpr bool kSwap = std::endian::native != std::endian::little;
 /// The specification allows 252.
 constexpr std::uint64_t kMaxStride = 4096;
 
-std::string name_of(std::uint64_t accessor) { return "accessor " + std::to_string(accessor); }
+std::string accessor_name(std::uint64_t accessor) { return "accessor " + std::to_string(accessor); }
 
 bool is_unsigned(ScalarType type) {
   return type == ScalarType::kUint8 || type == ScalarType::kUint16 || type == ScalarType::kUint32;
@@ -23,7 +21,8 @@ bool is_unsigned(ScalarType type) {
 }  // namespace
 
 Result<const GltfAccessor*> GltfArrays::accessor(std::uint64_t number) const {
-  if (number >= document_.accessors.size()) return gltf_error(name_of(number) + " does not exist");
+  if (number >= document_.accessors.size())
+    return gltf_error(accessor_name(number) + " does not exist");
   return &document_.accessors[number];
 }
 
@@ -59,16 +58,16 @@ Result<GltfSequence> GltfArrays::indices(std::uint64_t number) {
   const auto found = accessor(number);
   if (!found) return found.error();
   if ((*found)->width != 1 || !is_unsigned((*found)->elements.type))
-    return gltf_error(name_of(number) + " has no indices: they are unsigned integers");
-  return sequence(**found, name_of(number));
+    return gltf_error(accessor_name(number) + " has no indices: they are unsigned integers");
+  return sequence(**found, accessor_name(number));
 }
 
 Result<GltfSequence> GltfArrays::positions(std::uint64_t number) {
   const auto found = accessor(number);
   if (!found) return found.error();
   if ((*found)->width != 3 || (*found)->elements.type == ScalarType::kUint32)
-    return gltf_error(name_of(number) + " has no positions: they are a VEC3 of floats");
-  return sequence(**found, name_of(number));
+    return gltf_error(accessor_name(number) + " has no positions: they are a VEC3 of floats");
+  return sequence(**found, accessor_name(number));
 }
 
 Result<GltfSequence> GltfArrays::sequence(const GltfAccessor& declared, const std::string& name) {
@@ -103,7 +102,7 @@ Result<void> GltfArrays::check_ascending(const GltfArray& indices, std::uint64_t
   for (std::uint64_t i = 0; i < indices.count; ++i) {
     const std::byte* const at = window.at(indices.position(i), indices.element_bytes());
     if (at == nullptr) return window.failure();
-    const std::int64_t index = load_integer(indices.type, at, kSwap);
+    const std::int64_t index = load_integer(indices.type, at, kSwapLittle);
     if (index <= last || static_cast<std::uint64_t>(index) >= end)
       return gltf_error(name + " has sparse indices that do not ascend, or are too large");
     last = index;

@@ -12,7 +12,7 @@ namespace planetree::octree {
 
 namespace {
 
-std::string name_of(std::uint64_t buffer) { return "buffer " + std::to_string(buffer); }
+std::string buffer_name(std::uint64_t buffer) { return "buffer " + std::to_string(buffer); }
 
 std::optional<unsigned> digit_of(char c) {
   if (c >= '0' && c <= '9') return static_cast<unsigned>(c - '0');
@@ -56,10 +56,10 @@ Result<std::filesystem::path> gltf_buffer_path(const std::filesystem::path& gltf
 Result<GltfBuffers::Source> GltfBuffers::find_binary(std::uint64_t buffer) const {
   const GltfBuffer& declared = document_.buffers[buffer];
   if (declared.is_fallback)
-    return gltf_error(name_of(buffer) + " is compressed by meshoptimizer",
+    return gltf_error(buffer_name(buffer) + " is compressed by meshoptimizer",
                       "export it without compression");
   if (!parts_.has_binary || buffer != 0)
-    return gltf_error(name_of(buffer) + " has neither a URI nor a binary chunk");
+    return gltf_error(buffer_name(buffer) + " has neither a URI nor a binary chunk");
   // The chunk is filled up to a multiple of four bytes.
   constexpr std::uint64_t kFill = 3;
   if (parts_.binary.bytes() > declared.bytes && parts_.binary.bytes() - declared.bytes > kFill)
@@ -73,7 +73,7 @@ Result<GltfBuffers::Source> GltfBuffers::find(std::uint64_t buffer) const {
   const GltfBuffer& declared = document_.buffers[buffer];
   if (declared.embedded) {
     if (*declared.embedded >= document_.embedded.size())
-      return gltf_error(name_of(buffer) + " embeds data that is not in base64");
+      return gltf_error(buffer_name(buffer) + " embeds data that is not in base64");
     auto decoded = decode_base64(file_, document_.embedded[*declared.embedded], scratch_);
     if (!decoded) return decoded.error();
     const std::uint64_t bytes = decoded->size_bytes();
@@ -85,21 +85,22 @@ Result<GltfBuffers::Source> GltfBuffers::find(std::uint64_t buffer) const {
   auto opened = MeshFile::open(*path, scratch_.calls());
   if (!opened)
     return make_error(opened.error().code, Error::kNowhere, Error::kNowhere, "%s, '%s': %s",
-                      name_of(buffer).c_str(), printable(*declared.uri).c_str(),
+                      buffer_name(buffer).c_str(), printable(*declared.uri).c_str(),
                       opened.error().text);
   const std::uint64_t bytes = opened->size_bytes();
   return Source{std::make_unique<MeshFile>(std::move(*opened)), {0, bytes}};
 }
 
 Result<GltfBuffers::Bytes> GltfBuffers::open(std::uint64_t buffer) {
-  if (buffer >= document_.buffers.size()) return gltf_error(name_of(buffer) + " does not exist");
+  if (buffer >= document_.buffers.size())
+    return gltf_error(buffer_name(buffer) + " does not exist");
   auto known = sources_.find(buffer);
   if (known == sources_.end()) {
     auto found = find(buffer);
     if (!found) return found.error();
     const std::uint64_t declared = document_.buffers[buffer].bytes;
     if (found->range.bytes() < declared)
-      return gltf_error(name_of(buffer) + " declares " + std::to_string(declared) +
+      return gltf_error(buffer_name(buffer) + " declares " + std::to_string(declared) +
                         " bytes and has " + std::to_string(found->range.bytes()) + ": truncated");
     found->range.end = found->range.begin + declared;
     known = sources_.emplace(buffer, std::move(*found)).first;

@@ -1,12 +1,9 @@
 #include "octree/builder/mesh/gltf/gltf_elements.h"
 
-#include <bit>
-
 namespace planetree::octree {
 
 namespace {
 
-constexpr bool kSwap = std::endian::native != std::endian::little;
 constexpr std::uint64_t kNone = ~std::uint64_t{0};
 constexpr std::array<std::byte, 3 * sizeof(double)> kZeros = {};
 
@@ -37,7 +34,7 @@ bool GltfElementReader::read_index(std::uint64_t sparse, std::uint64_t& index) {
   if (sparse >= indices_.array.count) return true;
   const std::byte* const found = read(indices_, sparse);
   if (found == nullptr) return false;
-  index = static_cast<std::uint64_t>(load_integer(indices_.array.type, found, kSwap));
+  index = static_cast<std::uint64_t>(load_integer(indices_.array.type, found, kSwapLittle));
   return true;
 }
 

@@ -1,13 +1,10 @@
 #include "octree/builder/mesh/gltf/gltf_faces.h"
 
-#include <bit>
 #include <utility>
 
 namespace planetree::octree {
 
 namespace {
-
-constexpr bool kSwap = std::endian::native != std::endian::little;
 
 std::uint64_t triangles_of(std::uint64_t corners, GltfMode mode) {
   if (mode == GltfMode::kTriangles) return corners / 3;
@@ -37,7 +34,7 @@ bool GltfFaces::read_index(std::uint64_t k, std::int64_t& index) {
     failure_ = indices_->failure();
     return false;
   }
-  index = load_integer(type_, element, kSwap);
+  index = load_integer(type_, element, kSwapLittle);
   return true;
 }
 

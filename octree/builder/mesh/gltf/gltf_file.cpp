@@ -1,7 +1,6 @@
 #include "octree/builder/mesh/gltf/gltf_file.h"
 
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <span>
 
@@ -20,7 +19,6 @@ constexpr std::uint64_t kChunkHeaderBytes = 8;
 constexpr std::uint32_t kVersion = 2;
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A;
 constexpr std::uint32_t kBinaryChunk = 0x004E4942;
-constexpr bool kSwap = std::endian::native != std::endian::little;
 
 struct Chunk {
   std::uint32_t type = 0;
@@ -33,7 +31,7 @@ Result<std::array<std::uint32_t, kCount>> read_numbers(const MeshFile& file, std
   if (const auto read = file.read(offset, raw); !read) return read.error();
   std::array<std::uint32_t, kCount> numbers;
   for (std::size_t i = 0; i < kCount; ++i)
-    numbers[i] = load<std::uint32_t>(raw.data() + i * sizeof(std::uint32_t), kSwap);
+    numbers[i] = load<std::uint32_t>(raw.data() + i * sizeof(std::uint32_t), kSwapLittle);
   return numbers;
 }
 

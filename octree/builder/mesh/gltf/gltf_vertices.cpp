@@ -1,13 +1,10 @@
 #include "octree/builder/mesh/gltf/gltf_vertices.h"
 
 #include <algorithm>
-#include <bit>
 
 namespace planetree::octree {
 
 namespace {
-
-constexpr bool kSwap = std::endian::native != std::endian::little;
 
 /// The largest integer of a type.
 double largest(ScalarType type) {
@@ -36,7 +33,7 @@ GltfVertices::GltfVertices(const GltfSequence& positions, const GltfTransform& t
       is_identity_(transform.is_identity()),
       float32_(fits_float32(positions.base.type, positions.is_normalized, transform)),
       unit_(positions.is_normalized ? largest(positions.base.type) : 0),
-      is_plain_(!kSwap && is_identity_ && positions.base.file != nullptr &&
+      is_plain_(!kSwapLittle && is_identity_ && positions.base.file != nullptr &&
                 positions.base.type == ScalarType::kFloat32 &&
                 positions.base.stride == positions.base.element_bytes() &&
                 positions.sparse_indices.count == 0),
@@ -45,7 +42,7 @@ GltfVertices::GltfVertices(const GltfSequence& positions, const GltfTransform& t
 Vec3 GltfVertices::position(const std::byte* element) const {
   const auto number = [&](std::size_t axis) {
     const ScalarType type = sequence_.base.type;
-    const double value = load_real(type, element + axis * size_bytes(type), kSwap);
+    const double value = load_real(type, element + axis * size_bytes(type), kSwapLittle);
     return unit_ == 0 ? value : std::max(value / unit_, -1.0);
   };
   const Vec3 local{number(0), number(1), number(2)};

@@ -52,6 +52,9 @@ constexpr bool fits_float32(ScalarType type) noexcept {
   return type == ScalarType::kFloat32 || size_bytes(type) <= 2;
 }
 
+/// Whether the machine's byte order is not that of little-endian files.
+inline constexpr bool kSwapLittle = std::endian::native != std::endian::little;
+
 /// Reads a T at any address. `swap` says that the file's byte order is not the machine's.
 template <class T>
 T load(const std::byte* at, bool swap) noexcept {
