@@ -24,7 +24,7 @@
 #include "tools/compare/mesh_comparison.h"
 #include "tools/points/columns_option.h"
 #include "tools/points/row_reader.h"
-#include "tools/values/coloured_ply.h"
+#include "tools/values/coloured_cloud.h"
 #include "tools/values/model_lengths.h"
 
 namespace planetree::tools {
@@ -95,11 +95,11 @@ class Compare {
     if (arguments_.output.empty()) return kDone;
     if (const auto checked = check_is_no_input(arguments_.output, inputs); !checked)
       return console_.fail(arguments_.output.string(), checked.error());
-    auto ply =
-        ColouredPly::create(arguments_.output, "distance",
-                            "deviation in model units, negative inside", arguments_.page.force);
-    if (!ply) return console_.fail(arguments_.output.string(), ply.error());
-    ply_ = *std::move(ply);
+    auto cloud =
+        ColouredCloud::create(arguments_.output, "distance",
+                              "deviation in model units, negative inside", arguments_.page.force);
+    if (!cloud) return console_.fail(arguments_.output.string(), cloud.error());
+    cloud_ = *std::move(cloud);
     return kDone;
   }
 
@@ -130,8 +130,8 @@ class Compare {
       probe.closest_points(asked, answered, options);
       for (std::size_t i = 0; i < *count; ++i) {
         const double deviation = deviations.add(asked[i], answered[i]);
-        if (!ply_) continue;
-        if (const auto added = ply_->add(asked[i], deviation); !added)
+        if (!cloud_) continue;
+        if (const auto added = cloud_->add(asked[i], deviation); !added)
           return stop(arguments_.output.string(), added.error());
       }
       progress_.add(*count);
@@ -154,7 +154,7 @@ class Compare {
     const HausdorffGoal wanted = goal(record.diagonal);
     HausdorffSearch search(probe, wanted, arguments_.max_distance);
     MeshComparison comparison(probe, query_options(), record.diagonal, record.deviations, search,
-                              ply_.get());
+                              cloud_.get());
     ComparedMesh mesh;
     mesh.spacing = arguments_.spacing.value_or(kSpacingShare * record.diagonal);
     const std::uint64_t triangles = estimated_triangles(arguments_.other);
@@ -189,8 +189,8 @@ class Compare {
   }
 
   int report(const CompareRecord& record) {
-    if (ply_)
-      if (const auto written = ply_->commit(ColourScale::diverging(record.reach)); !written)
+    if (cloud_)
+      if (const auto written = cloud_->commit(ColourScale::diverging(record.reach)); !written)
         return console_.fail(arguments_.output.string(), written.error());
     return page_.report(arguments_.json ? compare_json(record) : compare_words(record),
                         [&] { return compare_page(record, compare_command(arguments_)); });
@@ -210,7 +210,7 @@ class Compare {
   Progress progress_;
   ReportPage page_;
   InputKind kind_ = InputKind::kPoints;
-  std::unique_ptr<ColouredPly> ply_;
+  std::unique_ptr<ColouredCloud> cloud_;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
 };
 
@@ -243,10 +243,12 @@ void add_files(SubcommandOptions& subcommand, CompareArguments& arguments) {
   add_columns(subcommand, arguments.columns);
   subcommand.path(
       "-o,--output", "OUT.ply", arguments.output,
-      "Also write the points, or the mesh in parts, as a binary PLY with their deviation "
-      "as `distance` and its colour: blue inside, light grey at 0, red outside");
+      "Also write the points, or the mesh in parts, with their deviation as `distance` and its "
+      "colour: blue inside, light grey at 0, red outside. A file named .vtp is a VTK file, one "
+      "named "
+      ".npy a NumPy array of the points, any other a binary PLY");
   add_page_path(subcommand, arguments.page);
-  subcommand.flag("--force", arguments.page.force, "Replace the PLY and the page if they exist");
+  subcommand.flag("--force", arguments.page.force, "Replace the output and the page if they exist");
 }
 
 void add_measures(SubcommandOptions& subcommand, Options& options) {

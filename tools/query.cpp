@@ -189,7 +189,7 @@ class QueryRun {
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
 };
 
-/// The output must neither be an input, nor be shown as raw numbers.
+/// The output must neither be an input, nor be shown as raw bytes.
 Result<void> check_output(const QueryArguments& arguments, const Console& console) {
   namespace fs = std::filesystem;
   if (arguments.output != "-") {
@@ -201,11 +201,21 @@ Result<void> check_output(const QueryArguments& arguments, const Console& consol
     return {};
   }
   const AnswerFormat format = arguments.form.format;
-  const bool is_raw = format == AnswerFormat::kF64 || format == AnswerFormat::kPly;
-  if (!is_raw || !console.output_is_terminal()) return {};
+  const char* const raw = format == AnswerFormat::kF64   ? "f64"
+                          : format == AnswerFormat::kPly ? "ply"
+                          : format == AnswerFormat::kVtp ? "vtp"
+                                                         : nullptr;
+  if (raw == nullptr || !console.output_is_terminal()) return {};
   return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
-                    "a terminal cannot show raw numbers; use --output, or omit --format %s",
-                    format == AnswerFormat::kF64 ? "f64" : "ply");
+                    "a terminal cannot show raw numbers; use --output, or omit --format %s", raw);
+}
+
+/// A NumPy array is begun before its number of rows is known, and completed at its front.
+Result<void> check_can_rewrite(const QueryArguments& arguments, const AnswerOutput& output) {
+  if (arguments.form.format != AnswerFormat::kNpy || output.can_rewrite()) return {};
+  return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
+                    "a NumPy array has its number of rows in front, which a pipe or a device "
+                    "cannot be told at the end; name a file by --output, or use --format f64");
 }
 
 Result<OpenOptions> open_options(const QueryArguments& arguments) {
@@ -238,6 +248,8 @@ int answer_rows(QueryRun& query_run, const QueryArguments& arguments, Console& c
   if (!queries) return console.fail(points_name(name), queries.error());
   auto output = AnswerOutput::open(arguments.output, arguments.force, console);
   if (!output) return console.fail(output_name(arguments), output.error());
+  if (const auto checked = check_can_rewrite(arguments, *output); !checked)
+    return console.fail(output_name(arguments), checked.error());
   return query_run.run(**queries, *output);
 }
 

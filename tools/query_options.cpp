@@ -1,9 +1,11 @@
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "octree/builder/mesh/stream/mesh_text.h"
+#include "tools/cli/file_extension.h"
 #include "tools/cli/layer_option.h"
 #include "tools/cli/parts_option.h"
 #include "tools/cli/policy_option.h"
@@ -22,11 +24,26 @@ constexpr std::uint64_t kMaxWork = QueryOptions::kNoLimit - 1;
 struct Options {
   QueryArguments arguments;
   std::string columns;
+  std::optional<AnswerFormat> format;  // empty: as the output's extension tells
   bool ray = false, sweep = false;
   std::vector<SubcommandOptions::Option> only_of_points;
   std::uint64_t max_work = QueryOptions::kNoLimit;
   bool never_wait = false;
 };
+
+const std::map<std::string, AnswerFormat>& formats() {
+  static const std::map<std::string, AnswerFormat> all = {
+      {"csv", AnswerFormat::kCsv}, {"jsonl", AnswerFormat::kJsonLines},
+      {"f64", AnswerFormat::kF64}, {"npy", AnswerFormat::kNpy},
+      {"ply", AnswerFormat::kPly}, {"vtp", AnswerFormat::kVtp}};
+  return all;
+}
+
+AnswerFormat format_of(const std::filesystem::path& output) {
+  const std::string extension = lower_extension(output);
+  const auto named = formats().find(extension.empty() ? extension : extension.substr(1));
+  return named == formats().end() ? AnswerFormat::kCsv : named->second;
+}
 
 void add_files(SubcommandOptions& subcommand, Options& options) {
   QueryArguments& arguments = options.arguments;
@@ -65,10 +82,6 @@ void add_files(SubcommandOptions& subcommand, Options& options) {
 
 void add_answers(SubcommandOptions& subcommand, Options& options) {
   QueryArguments& arguments = options.arguments;
-  static const std::map<std::string, AnswerFormat> formats = {{"csv", AnswerFormat::kCsv},
-                                                              {"jsonl", AnswerFormat::kJsonLines},
-                                                              {"f64", AnswerFormat::kF64},
-                                                              {"ply", AnswerFormat::kPly}};
   AnswerForm& form = arguments.form;
   const auto contains =
       subcommand.flag("--contains", arguments.contains, "Report only the side of each point");
@@ -119,8 +132,8 @@ void add_answers(SubcommandOptions& subcommand, Options& options) {
   options.only_of_points = {contains, nearest, within, contacts, is_signed, parts, side, normal};
   subcommand.default_text(
       subcommand.word(
-          "--format", {"csv", "jsonl", "f64", "ply"},
-          [&form](const std::string& name) { form.format = formats.at(name); },
+          "--format", {"csv", "jsonl", "f64", "npy", "ply", "vtp"},
+          [&options](const std::string& name) { options.format = formats().at(name); },
           "csv: a header and a row for each answer; jsonl: an object for each, with null for "
           "numbers that are not finite; f64: 14 little-endian float64 for each point (x y z "
           "distance lower upper side px py pz nx ny nz triangle; side is -1 inside, 0 on the "
@@ -128,9 +141,10 @@ void add_answers(SubcommandOptions& subcommand, Options& options) {
           "side), with --ray 20 and with --sweep 19 (all columns; t_min and t_max too; feature is "
           "0 "
           "face, 1 edge, 2 vertex; status is 0 exact, 2 degraded, 3 beyond_max_distance, 4 "
-          "bad_query); ply: the surface points that were found, as a binary PLY of doubles with "
-          "normals and distance or t"),
-      "csv");
+          "bad_query); npy: the columns of csv as the fields of a NumPy array, with numbers for "
+          "words; ply: the surface points that were found, as a binary PLY of doubles with "
+          "normals and distance or t; vtp: these points with all columns, as a VTK file"),
+      "the extension of OUT; csv if it is none of these");
 }
 
 void add_limits(SubcommandOptions& subcommand, Options& options) {
@@ -214,9 +228,11 @@ std::string complaint_of(const QueryArguments& arguments) {
   const std::uint32_t parts = arguments.options.parts;
   const bool has_both =
       (parts & kNormal) != 0 || (parts & (kDistance | kSide)) == (kDistance | kSide);
-  if (arguments.form.format == AnswerFormat::kPly &&
-      (arguments.contains || (parts & (kDistance | kNormal)) == 0))
+  const bool has_points = !arguments.contains && (parts & (kDistance | kNormal)) != 0;
+  if (arguments.form.format == AnswerFormat::kPly && !has_points)
     return "--format ply needs surface points; omit --contains, or add distance to --parts";
+  if (arguments.form.format == AnswerFormat::kVtp && !has_points && !arguments.contains)
+    return "--format vtp needs points; give --contains, or add distance to --parts";
   if (arguments.trace == "-") return "--trace needs a file; standard output is for the answers";
   return !arguments.form.signed_distance || has_both
              ? std::string()
@@ -244,6 +260,7 @@ void add_query(CLI::App& app, Console& console, std::function<int()>& action) {
     given.options.max_work = static_cast<std::uint32_t>(options->max_work);
     given.options.wait = options->never_wait ? Wait::kNever : Wait::kForPages;
     given.form.parts = given.options.parts;
+    given.form.format = options->format.value_or(format_of(given.output));
     action = [options, &console] { return run_query(options->arguments, console); };
     const std::string complaint = take_rows(*options, given);
     return complaint.empty() ? complaint_of(given) : complaint;

@@ -25,7 +25,7 @@
 #include "tools/thickness/thickness_page.h"
 #include "tools/thickness/thickness_report.h"
 #include "tools/thickness/thickness_rows.h"
-#include "tools/values/coloured_ply.h"
+#include "tools/values/coloured_cloud.h"
 #include "tools/values/model_lengths.h"
 
 namespace planetree::tools {
@@ -109,10 +109,10 @@ class Thickness {
       if (const auto checked = check_is_no_input(output, inputs); !checked)
         return console_.fail(output.string(), checked.error());
     if (!arguments_.output.empty()) {
-      auto ply = ColouredPly::create(arguments_.output, "thickness", "thickness in model units",
-                                     arguments_.page.force);
-      if (!ply) return console_.fail(arguments_.output.string(), ply.error());
-      ply_ = *std::move(ply);
+      auto cloud = ColouredCloud::create(arguments_.output, "thickness", "thickness in model units",
+                                         arguments_.page.force);
+      if (!cloud) return console_.fail(arguments_.output.string(), cloud.error());
+      cloud_ = *std::move(cloud);
     }
     if (!arguments_.rows.empty()) {
       auto rows = OutputFile::create(arguments_.rows, arguments_.page.force);
@@ -149,8 +149,8 @@ class Thickness {
       if (const int status = measure(search, read); status != kDone) return status;
       for (std::size_t i = 0; i < *count; ++i) {
         record.add(walls_[i], 1);
-        if (!ply_) continue;
-        if (const auto added = ply_->add(read[i], walls_[i].thickness); !added)
+        if (!cloud_) continue;
+        if (const auto added = cloud_->add(read[i], walls_[i].thickness); !added)
           return console_.fail(arguments_.output.string(), added.error());
       }
       progress_.add(*count);
@@ -196,7 +196,7 @@ class Thickness {
       for (std::size_t i = 0; i < chunk.size(); ++i) {
         record.add(walls_[i], std::max(area_of(chunk[i], record.diagonal),
                                        std::numeric_limits<double>::min()));
-        if (!ply_) continue;
+        if (!cloud_) continue;
         if (const auto added = draw(chunk[i], walls_[i].thickness); !added)
           return console_.fail(arguments_.output.string(), added.error());
       }
@@ -206,15 +206,15 @@ class Thickness {
 
   /// Triangles have corners of their own, since each has one thickness.
   Result<void> draw(const std::array<Vec3, 3>& corners, double thickness) {
-    const std::uint64_t first = ply_->point_count();
+    const std::uint64_t first = cloud_->point_count();
     for (const Vec3& corner : corners)
-      if (const auto added = ply_->add(corner, thickness); !added) return added;
-    return ply_->add_triangle({first, first + 1, first + 2});
+      if (const auto added = cloud_->add(corner, thickness); !added) return added;
+    return cloud_->add_triangle({first, first + 1, first + 2});
   }
 
   int report(const ThicknessRecord& record) {
-    if (ply_)
-      if (const auto written = ply_->commit(thickness_colours(record)); !written)
+    if (cloud_)
+      if (const auto written = cloud_->commit(thickness_colours(record)); !written)
         return console_.fail(arguments_.output.string(), written.error());
     if (rows_)
       if (const auto written = rows_->commit(); !written)
@@ -231,7 +231,7 @@ class Thickness {
   Console& console_;
   Progress progress_;
   ReportPage page_;
-  std::unique_ptr<ColouredPly> ply_;
+  std::unique_ptr<ColouredCloud> cloud_;
   std::optional<OutputFile> rows_;
   std::vector<WallThickness> walls_;
   std::uint64_t parts_seen_ = 0;
@@ -258,8 +258,9 @@ void add_files(SubcommandOptions& subcommand, ThicknessArguments& arguments) {
       "the middles of the model's triangles, see --spacing");
   add_columns(subcommand, arguments.columns);
   subcommand.path("-o,--output", "OUT.ply", arguments.output,
-                  "Also write the points, or the triangles, as a binary PLY with `thickness` and "
-                  "its colour, from dark violet (thin) to light yellow");
+                  "Also write the points, or the triangles, with `thickness` and its colour, from "
+                  "dark violet (thin) to light yellow. A file named .vtp is a VTK file, one named "
+                  ".npy a NumPy array of the points, any other a binary PLY");
   subcommand.path("--csv", "OUT.csv", arguments.rows,
                   "Also write a row for each point: "
                   "x,y,z,thickness,lower,upper,qx,qy,qz,status, where qx,qy,qz is the opposite "

@@ -10,6 +10,8 @@
 #include <limits>
 #include <string_view>
 
+#include "tools/answers/answer_words.h"
+
 /// The fields of a row of answers in each format. All classes here have the same members, so that
 /// the fields of an answer are listed once for all formats.
 namespace planetree::tools {
@@ -26,8 +28,8 @@ class HeaderFields {
   void number(std::string_view name, double, FieldState = FieldState::kKnown) { add(name); }
   void count(std::string_view name, std::uint64_t, FieldState) { add(name); }
   void flag(std::string_view name, bool, FieldState) { add(name); }
-  void code(std::string_view name, std::string_view, double, FieldState) { add(name); }
-  void word(std::string_view name, std::string_view, FieldState = FieldState::kKnown) { add(name); }
+  void code(std::string_view name, const Word&, double, FieldState) { add(name); }
+  void word(std::string_view name, const Word&, FieldState = FieldState::kKnown) { add(name); }
   void end() { fmt::format_to(out_, "\n"); }
 
  private:
@@ -50,10 +52,10 @@ class CsvFields {
   void count(std::string_view, std::uint64_t value, FieldState state) { add(value, state); }
   void flag(std::string_view, bool value, FieldState state) { add(value ? 1 : 0, state); }
   /// A word that has a number in f64.
-  void code(std::string_view, std::string_view word, double, FieldState state) { add(word, state); }
+  void code(std::string_view, const Word& word, double, FieldState state) { add(word.text, state); }
   /// A word that f64 does not have.
-  void word(std::string_view, std::string_view word, FieldState state = FieldState::kKnown) {
-    add(word, state);
+  void word(std::string_view, const Word& word, FieldState state = FieldState::kKnown) {
+    add(word.text, state);
   }
   void end() { fmt::format_to(out_, "\n"); }
 
@@ -82,12 +84,12 @@ class JsonFields {
     add(name, value, state);
   }
   void flag(std::string_view name, bool value, FieldState state) { add(name, value, state); }
-  void code(std::string_view name, std::string_view word, double, FieldState state) {
+  void code(std::string_view name, const Word& word, double, FieldState state) {
     this->word(name, word, state);
   }
-  void word(std::string_view name, std::string_view word, FieldState state = FieldState::kKnown) {
+  void word(std::string_view name, const Word& word, FieldState state = FieldState::kKnown) {
     if (!begin(name, state)) return;
-    fmt::format_to(out_, "\"{}\"", word);
+    fmt::format_to(out_, "\"{}\"", word.text);
   }
   void end() { fmt::format_to(out_, "}}\n"); }
 
@@ -125,23 +127,33 @@ class F64Fields {
   void flag(std::string_view name, bool value, FieldState state) {
     number(name, value ? 1 : 0, state);
   }
-  void code(std::string_view name, std::string_view, double value, FieldState state) {
+  void code(std::string_view name, const Word&, double value, FieldState state) {
     number(name, value, state);
   }
-  void word(std::string_view, std::string_view, FieldState = FieldState::kKnown) {}
+  void word(std::string_view, const Word&, FieldState = FieldState::kKnown) {}
   void end() {}
 
  private:
   fmt::memory_buffer& text_;
 };
 
-/// The numbers of a vector, named by a letter or two before x, y and z.
+/// The names of a vector and of its numbers.
+struct VectorName {
+  std::string_view name;
+  std::array<std::string_view, 3> parts;
+};
+
+/// A vector is one field of an array, and three numbers in all other formats.
 template <class Fields, class Vector>
-void add_vector(Fields& fields, const std::array<std::string_view, 3>& names, const Vector& vector,
+void add_vector(Fields& fields, const VectorName& name, const Vector& vector,
                 FieldState state = FieldState::kKnown) {
-  fields.number(names[0], vector.x, state);
-  fields.number(names[1], vector.y, state);
-  fields.number(names[2], vector.z, state);
+  if constexpr (requires { fields.vector(name, {}, state); }) {
+    fields.vector(name, {vector.x, vector.y, vector.z}, state);
+  } else {
+    fields.number(name.parts[0], vector.x, state);
+    fields.number(name.parts[1], vector.y, state);
+    fields.number(name.parts[2], vector.z, state);
+  }
 }
 
 }  // namespace planetree::tools

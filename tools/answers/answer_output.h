@@ -23,6 +23,14 @@ class AnswerOutput {
   ///
   /// errors  those of OutputFile::write()
   Result<bool> write(std::string_view text);
+  /// Whether rewrite_front() is possible: the answers go to a file, not to a pipe or a device.
+  [[nodiscard]] bool can_rewrite() const { return file_ && file_->can_rewrite(); }
+  /// Writes text over the first text that was written. Requires can_rewrite().
+  ///
+  /// errors  those of OutputFile::rewrite_front()
+  Result<void> rewrite_front(std::string_view text);
+  /// A folder for temporary files: that of the file, or the system's.
+  [[nodiscard]] std::filesystem::path temporary_folder() const;
   /// Gives the file its name. The last call.
   ///
   /// errors  those of OutputFile::commit()
@@ -32,6 +40,7 @@ class AnswerOutput {
   explicit AnswerOutput(Console& console) : console_(&console) {}
 
   Console* console_;
+  std::filesystem::path folder_;  // of the file
   std::optional<OutputFile> file_;
 };
 

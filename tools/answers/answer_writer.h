@@ -3,24 +3,28 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "planetree/contact.h"
 #include "planetree/types.h"
 #include "tools/answers/answer_output.h"
 #include "tools/answers/point_cloud.h"
+#include "tools/arrays/column.h"
+#include "tools/arrays/vtp_cloud.h"
 
 namespace planetree::tools {
 
-/// One row per answer: CSV, one JSON object per line, or raw little-endian float64 values. kPly:
-/// the points of answers, as the vertices of a binary PLY.
-enum class AnswerFormat : std::uint8_t { kCsv, kJsonLines, kF64, kPly };
+/// One row per answer: CSV, one JSON object per line, raw little-endian float64 values, or a NumPy
+/// array. kPly, kVtp: the points of answers, as the vertices of a binary PLY or a VTK file.
+enum class AnswerFormat : std::uint8_t { kCsv, kJsonLines, kF64, kNpy, kPly, kVtp };
 
 /// How answers are written.
 struct AnswerForm {
   AnswerFormat format = AnswerFormat::kCsv;
   /// Negative inside, NaN where the side is unknown; the column has another name.
   bool signed_distance = false;
-  /// QueryOptions::parts. What was not requested is left out: an empty column, no key, or NaN.
+  /// QueryOptions::parts. What was not requested is left out: an empty column, no key, no field, or
+  /// NaN.
   std::uint32_t parts = kAllParts;
   /// Rays have t_min and t_max. In kF64 they always do.
   bool shows_range = false;
@@ -29,6 +33,7 @@ struct AnswerForm {
 /// Writes answers in one form, one row per answer.
 class AnswerWriter {
  public:
+  /// output  must outlive this; for kNpy it must be one that can be rewritten
   AnswerWriter(AnswerOutput& output, const AnswerForm& form) : output_(output), form_(form) {
     form_.shows_range |= form.format == AnswerFormat::kF64;
   }
@@ -55,6 +60,9 @@ class AnswerWriter {
   AnswerOutput& output_;
   AnswerForm form_;
   std::optional<PointCloud> cloud_;  // for kPly
+  std::vector<Column> columns_;      // for kNpy
+  std::uint64_t rows_ = 0;           // for kNpy
+  std::optional<VtpCloud> vtp_;      // for kVtp
 };
 
 }  // namespace planetree::tools

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <limits>
 #include <string_view>
 
@@ -12,9 +11,9 @@
 /// The fields of answers about points.
 namespace planetree::tools {
 
-inline constexpr std::array<std::string_view, 3> kPositionNames = {"x", "y", "z"};
-inline constexpr std::array<std::string_view, 3> kPointNames = {"px", "py", "pz"};
-inline constexpr std::array<std::string_view, 3> kNormalNames = {"nx", "ny", "nz"};
+inline constexpr VectorName kQueryName{"query", {"x", "y", "z"}};
+inline constexpr VectorName kPointName{"point", {"px", "py", "pz"}};
+inline constexpr VectorName kNormalName{"normal", {"nx", "ny", "nz"}};
 
 /// A query that needs the normal computes all other parts, too.
 inline FieldState state_of(const AnswerForm& form, std::uint32_t part) {
@@ -41,28 +40,28 @@ void add_row(Fields& fields, const AnswerForm& form, const Vec3& query,
              const ClosestPoint& answer) {
   const FieldState distance = state_of(form, kDistance);
   const bool has_triangle = answer.triangle != kNoTriangle;
-  add_vector(fields, kPositionNames, query);
+  add_vector(fields, kQueryName, query);
   if (form.signed_distance)
     fields.number("signed_distance", signed_distance(answer), distance);
   else
     fields.number("distance", answer.distance, distance);
   fields.number("lower", answer.lower, distance);
   fields.number("upper", answer.upper, distance);
-  fields.code("side", side_word(answer.side), side_number(answer.side), state_of(form, kSide));
-  add_vector(fields, kPointNames, answer.point, distance);
-  add_vector(fields, kNormalNames, answer.normal, state_of(form, kNormal));
+  fields.code("side", named(answer.side), side_number(answer.side), state_of(form, kSide));
+  add_vector(fields, kPointName, answer.point, distance);
+  add_vector(fields, kNormalName, answer.normal, state_of(form, kNormal));
   fields.count("triangle", answer.triangle,
                has_triangle || distance != FieldState::kKnown ? distance : FieldState::kNone);
-  fields.word("feature", feature_word(answer.feature), distance);
-  fields.word("status", status_word(answer.status));
+  fields.word("feature", named(answer.feature), distance);
+  fields.word("status", named(answer.status));
   fields.end();
 }
 
 template <class Fields>
 void add_row(Fields& fields, const AnswerForm&, const Vec3& query, const Containment& answer) {
-  add_vector(fields, kPositionNames, query);
-  fields.code("side", side_word(answer.side), side_number(answer.side), FieldState::kKnown);
-  fields.word("status", status_word(answer.status));
+  add_vector(fields, kQueryName, query);
+  fields.code("side", named(answer.side), side_number(answer.side), FieldState::kKnown);
+  fields.word("status", named(answer.status));
   fields.end();
 }
 

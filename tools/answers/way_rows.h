@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <string_view>
 
 #include "planetree/contact.h"
@@ -12,9 +11,10 @@
 /// The fields of answers about rays and sweeps.
 namespace planetree::tools {
 
-inline constexpr std::array<std::string_view, 3> kDirectionNames = {"dx", "dy", "dz"};
-inline constexpr std::array<std::string_view, 3> kFromNames = {"x0", "y0", "z0"};
-inline constexpr std::array<std::string_view, 3> kToNames = {"x1", "y1", "z1"};
+inline constexpr VectorName kOriginName{"origin", {"x", "y", "z"}};
+inline constexpr VectorName kDirectionName{"direction", {"dx", "dy", "dz"}};
+inline constexpr VectorName kFromName{"from", {"x0", "y0", "z0"}};
+inline constexpr VectorName kToName{"to", {"x1", "y1", "z1"}};
 
 /// Fields about a triangle have no value where none was found.
 inline FieldState state_of(std::uint64_t triangle) {
@@ -24,21 +24,21 @@ inline FieldState state_of(std::uint64_t triangle) {
 template <class Fields>
 void add_place(Fields& fields, const Vec3& point, const Vec3& normal, std::uint64_t triangle) {
   const FieldState found = state_of(triangle);
-  add_vector(fields, kPointNames, point, found);
-  add_vector(fields, kNormalNames, normal, found);
+  add_vector(fields, kPointName, point, found);
+  add_vector(fields, kNormalName, normal, found);
   fields.count("triangle", triangle, found);
 }
 
 template <class Fields>
 void add_status(Fields& fields, Status status) {
-  fields.code("status", status_word(status), static_cast<double>(status), FieldState::kKnown);
+  fields.code("status", named(status), static_cast<double>(status), FieldState::kKnown);
   fields.end();
 }
 
 template <class Fields>
 void add_row(Fields& fields, const AnswerForm& form, const Ray& ray, const RayHit& hit) {
-  add_vector(fields, kPositionNames, ray.origin);
-  add_vector(fields, kDirectionNames, ray.direction);
+  add_vector(fields, kOriginName, ray.origin);
+  add_vector(fields, kDirectionName, ray.direction);
   if (form.shows_range) {
     fields.number("t_min", ray.t_min);
     fields.number("t_max", ray.t_max);
@@ -53,16 +53,15 @@ void add_row(Fields& fields, const AnswerForm& form, const Ray& ray, const RayHi
 
 template <class Fields>
 void add_row(Fields& fields, const AnswerForm&, const Sweep& sweep, const FirstContact& contact) {
-  add_vector(fields, kFromNames, sweep.from);
-  add_vector(fields, kToNames, sweep.to);
+  add_vector(fields, kFromName, sweep.from);
+  add_vector(fields, kToName, sweep.to);
   fields.number("radius", sweep.radius);
   fields.number("t", contact.t);
   fields.number("t_lower", contact.t_lower);
   fields.number("t_upper", contact.t_upper);
   const ClosestPoint& at = contact.at;
   add_place(fields, at.point, at.normal, at.triangle);
-  fields.code("feature", feature_word(at.feature), static_cast<double>(at.feature),
-              state_of(at.triangle));
+  fields.code("feature", named(at.feature), static_cast<double>(at.feature), state_of(at.triangle));
   add_status(fields, contact.status);
 }
 

@@ -170,6 +170,18 @@ Result<void> OutputFile::write(std::span<const std::byte> bytes) {
   return {};
 }
 
+Result<void> OutputFile::rewrite_front(std::span<const std::byte> bytes) {
+  assert(can_rewrite() && bytes.size() <= bytes_written_);
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t written =
+        ::pwrite(descriptor_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(done));
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return system_error("write", errno, done);
+    done += static_cast<std::size_t>(written);
+  }
+  return {};
+}
+
 Result<void> OutputFile::commit() {
   if (!owns_descriptor_) return {};
   // Some devices report a lack of space only now.

@@ -44,6 +44,12 @@ class OutputFile {
   Result<void> reserve(std::uint64_t bytes);
   /// Appends all of `bytes`. Unbuffered: pieces should be large.
   Result<void> write(std::span<const std::byte> bytes);
+  /// Whether bytes that were written may be written again: not those of standard output, a device
+  /// or a pipe.
+  [[nodiscard]] bool can_rewrite() const { return !destination_.empty(); }
+  /// Writes bytes over the first ones of the file, which must have been written. Requires
+  /// can_rewrite().
+  Result<void> rewrite_front(std::span<const std::byte> bytes);
   /// Flushes the bytes to the device and names the file. The last call, made once. If it fails,
   /// the destination is unchanged.
   Result<void> commit();

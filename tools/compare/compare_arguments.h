@@ -19,7 +19,7 @@ struct CompareArguments {
   std::filesystem::path other;    ///< points or a mesh; "-" is standard input
   std::optional<InputKind> kind;  ///< of `other`; empty: as its content tells
   ColumnChoice columns;           ///< of a text of points
-  std::filesystem::path output;   ///< coloured PLY; empty: none
+  std::filesystem::path output;   ///< coloured points; empty: none
   std::optional<double> tolerance;
   std::optional<double> spacing;          ///< longest edge of a mesh's parts; empty: by the model
   std::optional<double> hausdorff_error;  ///< of a mesh; empty: as HausdorffGoal
@@ -30,7 +30,7 @@ struct CompareArguments {
   SideRule side_rule = SideRule::kOfFile;
   std::uint64_t memory_bytes = std::uint64_t{256} << 20;
   std::uint64_t threads = 0;  ///< batch threads; 0: one for each processor
-  PageChoice page;            ///< page to write; its `force` is for the PLY too
+  PageChoice page;            ///< page to write; its `force` is for the output too
   bool json = false;
   bool quiet = false;
 };

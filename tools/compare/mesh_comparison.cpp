@@ -22,15 +22,15 @@ Result<void> MeshComparison::take(const MeshPiece& piece) {
   for (std::size_t i = 0; i < piece.corners.size(); ++i)
     values_[i] = deviations_.add(piece.corners[i], answers_[i], weights_[i]);
   if (const auto added = search_.add(piece, answers_); !added) return added;
-  return ply_ != nullptr ? draw(piece, values_) : Result<void>();
+  return cloud_ != nullptr ? draw(piece, values_) : Result<void>();
 }
 
 Result<void> MeshComparison::draw(const MeshPiece& piece, std::span<const double> deviations) {
-  const std::uint64_t first = ply_->point_count();
+  const std::uint64_t first = cloud_->point_count();
   for (std::size_t i = 0; i < piece.corners.size(); ++i)
-    if (const auto added = ply_->add(piece.corners[i], deviations[i]); !added) return added;
+    if (const auto added = cloud_->add(piece.corners[i], deviations[i]); !added) return added;
   for (const auto& [a, b, c] : piece.triangles)
-    if (const auto added = ply_->add_triangle({first + a, first + b, first + c}); !added)
+    if (const auto added = cloud_->add_triangle({first + a, first + b, first + c}); !added)
       return added;
   return {};
 }

@@ -7,7 +7,7 @@
 #include "tools/compare/deviation_tally.h"
 #include "tools/compare/hausdorff_search.h"
 #include "tools/mesh/mesh_pieces.h"
-#include "tools/values/coloured_ply.h"
+#include "tools/values/coloured_cloud.h"
 
 namespace planetree::tools {
 
@@ -15,15 +15,15 @@ namespace planetree::tools {
 /// Each counts by a third of the area of its triangles.
 class MeshComparison {
  public:
-  /// ply  may be null; all others must outlive this
+  /// cloud  may be null; all others must outlive this
   MeshComparison(Probe& probe, const QueryOptions& options, double unit, DeviationTally& deviations,
-                 HausdorffSearch& search, ColouredPly* ply)
+                 HausdorffSearch& search, ColouredCloud* cloud)
       : probe_(probe),
         options_(options),
         unit_(unit),
         deviations_(deviations),
         search_(search),
-        ply_(ply) {}
+        cloud_(cloud) {}
 
   /// Takes a piece.
   ///
@@ -39,7 +39,7 @@ class MeshComparison {
   const double unit_;  // a length in the order of the model's
   DeviationTally& deviations_;
   HausdorffSearch& search_;
-  ColouredPly* const ply_;
+  ColouredCloud* const cloud_;
   std::vector<ClosestPoint> answers_;
   std::vector<double> weights_, values_;
 };

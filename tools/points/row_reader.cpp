@@ -2,13 +2,13 @@
 
 #include <sys/stat.h>
 
-#include <algorithm>
 #include <optional>
 #include <type_traits>
 #include <vector>
 
 #include "octree/builder/mesh/ply_header.h"
 #include "octree/builder/mesh/stream/mesh_file.h"
+#include "tools/cli/file_extension.h"
 #include "tools/cli/input_file.h"
 #include "tools/points/foreign_format.h"
 #include "tools/points/las_points.h"
@@ -97,12 +97,7 @@ Result<std::unique_ptr<RowReader<Row>>> open_rows(const std::string& path,
 
 }  // namespace
 
-bool is_raw_rows(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c | 0x20) : c; });
-  return extension == ".f64";
-}
+bool is_raw_rows(const std::filesystem::path& path) { return lower_extension(path) == ".f64"; }
 
 std::string points_name(const std::string& path) { return path == "-" ? "standard input" : path; }
 

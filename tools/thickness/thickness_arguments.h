@@ -16,7 +16,7 @@ struct ThicknessArguments {
   std::filesystem::path file;
   std::filesystem::path points;  ///< empty: the middles of the model's triangles
   ColumnChoice columns;          ///< of a text of points
-  std::filesystem::path output;  ///< coloured PLY; empty: none
+  std::filesystem::path output;  ///< coloured points; empty: none
   std::filesystem::path rows;    ///< CSV; empty: none
   std::optional<double> max_thickness;
   std::optional<double> thin;     ///< count what is thinner

@@ -86,6 +86,23 @@ TEST_F(OutputFileTest, AppearsOnlyWhenCommitted) {
   EXPECT_EQ(file_count(), 1U);
 }
 
+TEST_F(OutputFileTest, RewritesItsFront) {
+  for (const bool replaces : {false, true}) {
+    auto file = OutputFile::create(path(), true);
+    ASSERT_TRUE(file);
+    EXPECT_TRUE(file->can_rewrite());
+    ASSERT_TRUE(file->write(bytes_of("one ")));
+    ASSERT_TRUE(file->write(bytes_of("two")));
+    ASSERT_TRUE(file->rewrite_front(bytes_of("ONE")));
+    ASSERT_TRUE(file->write(bytes_of(" three")));
+    ASSERT_TRUE(file->commit());
+    EXPECT_EQ(content(path()), "ONE two three") << replaces;
+    EXPECT_EQ(file->bytes_written(), 13U);
+  }
+  EXPECT_FALSE(OutputFile::create("-", false)->can_rewrite());
+  EXPECT_FALSE(OutputFile::create("/dev/null", false)->can_rewrite());
+}
+
 TEST_F(OutputFileTest, VanishesWhenAbandoned) {
   put(path("old"), "old");
   for (const char* name : {"new", "old"}) {
