@@ -5,11 +5,30 @@
 #include <optional>
 #include <utility>
 
-#include "octree/builder/mesh/ply_type.h"
-
 namespace planetree::octree {
 
 namespace {
+
+/// The type that a header calls `name`, in any case: "uchar", "uint8" or "uint8_t". "long" has 64
+/// bits.
+std::optional<ScalarType> type_named(std::string_view name) noexcept {
+  static constexpr std::pair<std::string_view, ScalarType> kNames[] = {
+      {"char", ScalarType::kInt8},      {"int8", ScalarType::kInt8},
+      {"uchar", ScalarType::kUint8},    {"uint8", ScalarType::kUint8},
+      {"short", ScalarType::kInt16},    {"int16", ScalarType::kInt16},
+      {"ushort", ScalarType::kUint16},  {"uint16", ScalarType::kUint16},
+      {"int", ScalarType::kInt32},      {"int32", ScalarType::kInt32},
+      {"uint", ScalarType::kUint32},    {"uint32", ScalarType::kUint32},
+      {"long", ScalarType::kInt64},     {"int64", ScalarType::kInt64},
+      {"ulong", ScalarType::kUint64},   {"uint64", ScalarType::kUint64},
+      {"longlong", ScalarType::kInt64}, {"ulonglong", ScalarType::kUint64},
+      {"float", ScalarType::kFloat32},  {"float32", ScalarType::kFloat32},
+      {"double", ScalarType::kFloat64}, {"float64", ScalarType::kFloat64}};
+  if (name.ends_with("_t")) name.remove_suffix(2);
+  for (const auto& [known, type] : kNames)
+    if (is_same_word(name, known)) return type;
+  return std::nullopt;
+}
 
 /// Whether a list is called "vertex_indices", in one of its spellings.
 bool names_indices(std::string_view name) {
@@ -111,14 +130,14 @@ class HeaderParser {
     std::string_view word = take_word(rest);
     if (is_same_word(word, "list")) {
       property.is_list = true;
-      const std::optional<ScalarType> count_type = ply_type_named(take_word(rest));
+      const std::optional<ScalarType> count_type = type_named(take_word(rest));
       if (!count_type || !is_integer(*count_type)) {
         return error("a list whose length is of no integer type");
       }
       property.count_type = *count_type;
       word = take_word(rest);
     }
-    const std::optional<ScalarType> type = ply_type_named(word);
+    const std::optional<ScalarType> type = type_named(word);
     if (!type) return error("type '" + printable(word) + "' is unknown");
     property.type = *type;
     property.name = take_word(rest);

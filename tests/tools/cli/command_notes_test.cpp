@@ -33,9 +33,9 @@ TEST_F(Command, BuildNamesFileAndPositionOfAMeshFaultOnce) {
        "again\n"},
       {"solid a\nvertex 0 0 0\n",
        "line 2: 'vertex' is not expected here; copy or export the STL again\n"},
-      {"glTF\2",
-       "byte 0: the file is a binary glTF file (GLB); open it in the program it is from and "
-       "export PLY, STL, OBJ or OFF\n"}};
+      {"Kaydara FBX Binary",
+       "byte 0: the file is an FBX file; open it in the program it is from and export PLY, STL, "
+       "OBJ, OFF or glTF\n"}};
   for (const auto& [bytes, message] : faults) {
     std::ofstream("fault.stl", std::ios::binary) << bytes;
     const Outcome result = run({"build", "fault.stl", "-o", "fault.ptree"});

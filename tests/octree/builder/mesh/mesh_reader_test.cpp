@@ -36,8 +36,8 @@ TEST(MeshReader, RefusesUnknownFormats) {
     const Reading reading = read_bytes(kObj, extension);
     EXPECT_EQ(reading.code, ErrorCode::kBadInput);
     EXPECT_EQ(reading.error,
-              "byte 0: neither a PLY, an STL nor an OFF, and not named .obj; give a PLY, STL, OBJ "
-              "or OFF mesh (an OBJ needs its extension)");
+              "byte 0: neither a PLY, an STL, an OFF nor a glTF, and not named .obj; give a PLY, "
+              "STL, OBJ, OFF or glTF mesh (an OBJ needs its extension)");
   }
   EXPECT_EQ(read_bytes("", ".ply").code, ErrorCode::kBadInput);
   EXPECT_EQ(read_bytes("ply", ".ply").code, ErrorCode::kBadInput);
