@@ -113,15 +113,17 @@ TEST_F(ArrayCommand, WritesDeviationsWithColours) {
 }
 
 TEST_F(ArrayCommand, WritesMeasuredTrianglesAsAVtkFile) {
-  const ReadVtp map = read_vtp(made({"compare", "tree.ptree", "mesh.obj"}, "map.vtp"));
+  const ReadVtp map =
+      read_vtp(made({"compare", "tree.ptree", "mesh.obj", "--spacing", "4"}, "map.vtp"));
   EXPECT_GE(map.polys, kTriangles);
   EXPECT_EQ(map.verts, 0u);
   for (const double corner : map.values("Polys/connectivity"))
     EXPECT_LT(corner, static_cast<double>(map.points));
-  const ReadVtp walls = read_vtp(made({"thickness", "tree.ptree"}, "walls.vtp"));
+  const ReadVtp walls = read_vtp(made({"thickness", "tree.ptree", "--spacing", "4"}, "walls.vtp"));
   EXPECT_EQ(walls.scalars, "thickness");
   EXPECT_EQ(walls.points, 3 * walls.polys);
-  const ReadNpy corners = read_npy(made({"thickness", "tree.ptree"}, "walls.npy"));
+  const ReadNpy corners =
+      read_npy(made({"thickness", "tree.ptree", "--spacing", "4"}, "walls.npy"));
   EXPECT_EQ(corners.rows, walls.points);
   EXPECT_EQ(corners.columns.at("thickness").size(), walls.points);
 }
