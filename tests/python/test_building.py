@@ -1,6 +1,8 @@
 """Building from arrays, files and meshes of other libraries."""
 
+import json
 import signal
+import struct
 import types
 import unittest
 
@@ -44,6 +46,32 @@ class Builds(ModelTestCase):
         faces = np.ascontiguousarray(rows[:, 1:]).view("<u4").reshape(-1, 3)
         path, _ = self.build((vertices, faces))
         self.assertEqual(path.read_bytes(), from_file)
+
+    def test_of_a_glb_are_those_of_its_arrays(self):
+        vertices, faces = cube()
+        arrays = [np.asarray(vertices, "<f4").tobytes(), np.asarray(faces, "<u2").tobytes()]
+        views = [{"buffer": 0, "byteOffset": 0, "byteLength": len(arrays[0])}]
+        views.append({"buffer": 0, "byteOffset": len(arrays[0]), "byteLength": len(arrays[1])})
+        document = {
+            "asset": {"version": "2.0"},
+            "buffers": [{"byteLength": sum(map(len, arrays))}],
+            "bufferViews": views,
+            "accessors": [
+                {"bufferView": 0, "componentType": 5126, "count": len(vertices), "type": "VEC3"},
+                {"bufferView": 1, "componentType": 5123, "count": 3 * len(faces), "type": "SCALAR"},
+            ],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+        }
+        chunks = [json.dumps(document).encode(), b"".join(arrays)]
+        chunks = [chunk + b" " * (-len(chunk) % 4) for chunk in chunks]
+        glb = struct.pack("<4sII", b"glTF", 2, 28 + sum(map(len, chunks)))
+        for chunk, kind in zip(chunks, (b"JSON", b"BIN\0")):
+            glb += struct.pack("<I4s", len(chunk), kind) + chunk
+        mesh = self.folder / "cube.glb"
+        mesh.write_bytes(glb)
+        from_glb = self.build(mesh)[0].read_bytes()
+        from_arrays = self.build((np.asarray(vertices, np.float32), faces))[0].read_bytes()
+        self.assertEqual(from_glb, from_arrays)
 
     def test_take_any_kind_of_integers(self):
         vertices, faces = cube()
