@@ -14,6 +14,7 @@
 #include "octree/builder/mesh/gltf/gltf_vertices.h"
 #include "octree/builder/mesh/stream/face_vertex_join.h"
 #include "octree/builder/mesh/stream/fan_emitter.h"
+#include "octree/builder/mesh/stream/mesh_note.h"
 
 namespace planetree::octree {
 
@@ -164,17 +165,17 @@ class GltfReader {
 
   [[nodiscard]] std::vector<std::string> notes() const {
     std::vector<std::string> notes = outline_.scene.notes;
-    const auto add = [&notes](std::uint64_t count, const std::string& text) {
-      if (count > 0) notes.push_back(std::to_string(count) + ' ' + text);
+    const auto add = [&notes](std::uint64_t count, const std::string& what, const char* text) {
+      if (count > 0) notes.push_back(counted(count, what) + text);
     };
-    add(outline_.parts.surplus, "bytes behind the end of the GLB are not read");
-    add(outline_.document.scenes.size() - std::min<std::size_t>(1, outline_.document.scenes.size()),
-        "other scenes are not read");
-    add(without_triangles_, "primitives of points or lines are not read");
-    add(without_positions_, "primitives without positions are not read");
-    add(morphed_, "primitives with morph targets are read without them");
-    add(left_out_, "triangles of strips and fans with two equal vertices left out");
-    add(rest_, "indices behind the last triangle of a primitive are not read");
+    const std::uint64_t scenes = outline_.document.scenes.size();
+    add(outline_.parts.surplus, "byte", " behind the end of the GLB not read");
+    add(scenes - std::min<std::uint64_t>(1, scenes), "other scene", " not read");
+    add(without_triangles_, "primitive", " of points or lines not read");
+    add(without_positions_, "primitive", " without positions not read");
+    add(morphed_, "primitive", " with morph targets read without them");
+    add(left_out_, "triangle", " of strips and fans with two equal vertices left out");
+    add(rest_, "corner", " behind the last triangle of a primitive not read");
     return notes;
   }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "octree/builder/mesh/gltf/gltf_error.h"
+#include "octree/builder/mesh/stream/mesh_note.h"
 
 namespace planetree::octree {
 
@@ -93,13 +94,14 @@ class GltfWalk {
   }
 
   void note() {
-    const auto add = [this](std::uint64_t count, const char* text) {
-      if (count > 0) scene_.notes.push_back(std::to_string(count) + ' ' + text);
+    const auto add = [this](std::uint64_t count, const std::string& what, const char* end,
+                            const char* text) {
+      if (count > 0) scene_.notes.push_back(counted(count, what, end) + text);
     };
     const std::uint64_t placed = std::ranges::count(is_placed_, true);
-    add(is_placed_.size() - placed, "meshes of no node of the scene are not read");
-    add(skinned_, "meshes with a skin are read as stored, in no pose of their joints");
-    add(instanced_, "nodes with instances (EXT_mesh_gpu_instancing) are read once each");
+    add(is_placed_.size() - placed, "mesh", "es", " of no node of the scene not read");
+    add(skinned_, "mesh", "es", " with a skin read as stored, in no pose of its joints");
+    add(instanced_, "node", "s", " with instances (EXT_mesh_gpu_instancing) read once");
   }
 
   const GltfDocument& document_;

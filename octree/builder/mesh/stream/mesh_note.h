@@ -8,6 +8,12 @@
 
 namespace planetree::octree {
 
+/// "3 curves", or "1 curve".
+inline std::string counted(std::uint64_t count, const std::string& noun,
+                           const std::string& plural_end = "s") {
+  return std::to_string(count) + ' ' + noun + (count == 1 ? "" : plural_end);
+}
+
 /// Counts one kind of thing that a reader passes over, or takes in another way than it is written,
 /// and remembers the first.
 class MeshNote {
@@ -23,9 +29,8 @@ class MeshNote {
   [[nodiscard]] std::uint64_t count() const { return count_; }
   [[nodiscard]] explicit operator bool() const { return count_ > 0; }
 
-  /// "3 curves", or "1 curve".
   [[nodiscard]] std::string counted(const std::string& noun) const {
-    return std::to_string(count_) + ' ' + noun + (count_ == 1 ? "" : "s");
+    return octree::counted(count_, noun);
   }
   /// "the first 'surf' in line 12", or without the word where there is none.
   [[nodiscard]] std::string first() const {

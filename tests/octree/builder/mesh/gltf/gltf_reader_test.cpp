@@ -229,14 +229,14 @@ TEST(GltfReader, TellsWhatItPassesOver) {
   EXPECT_EQ(reading.error, "");
   EXPECT_EQ(reading.log, ply_log(doubles(kPositions), {{0, 1, 2}, {3, 4, 5}, {0, 1, 2}}));
   EXPECT_EQ(notes_of(reading),
-            "1 meshes of no node of the scene are not read\n"
-            "1 meshes with a skin are read as stored, in no pose of their joints\n"
-            "4 bytes behind the end of the GLB are not read\n"
-            "1 other scenes are not read\n"
-            "1 primitives of points or lines are not read\n"
-            "1 primitives without positions are not read\n"
-            "1 primitives with morph targets are read without them\n"
-            "1 indices behind the last triangle of a primitive are not read\n");
+            "1 mesh of no node of the scene not read\n"
+            "1 mesh with a skin read as stored, in no pose of its joints\n"
+            "4 bytes behind the end of the GLB not read\n"
+            "1 other scene not read\n"
+            "1 primitive of points or lines not read\n"
+            "1 primitive without positions not read\n"
+            "1 primitive with morph targets read without them\n"
+            "1 corner behind the last triangle of a primitive not read\n");
 }
 
 // The text of a document is small, whatever strings and numbers it has beside those that are read.
