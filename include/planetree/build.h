@@ -15,6 +15,7 @@
 #include <variant>
 #include <vector>
 
+#include "planetree/attributes.h"
 #include "planetree/error.h"
 #include "planetree/export.h"
 #include "planetree/layers.h"
@@ -55,6 +56,11 @@ class BuildInput {
   struct Mesh {
     std::span<const Vertex> vertices;             ///< positions in model units
     std::span<const TriangleVertices> triangles;  ///< indices into `vertices`
+    std::span<const Color> colors = {};           ///< for kKeepColor: one for each vertex
+    /// For kKeepUv: one for each vertex, or three for each triangle, in the order of its corners.
+    std::span<const TextureCoordinate> uvs = {};
+    std::span<const std::uint64_t> values = {};   ///< for kKeepValue: the bits, for each triangle
+    ValueKind value_kind = ValueKind::kUnsigned;  ///< type of the values
   };
   /// Triangles from a callback. A triangle is skipped if a coordinate of its corners is not finite.
   struct Stream {
@@ -81,6 +87,10 @@ class BuildInput {
   /// A mesh in memory with float coordinates, under the same rules.
   BuildInput(std::span<const FloatVertex> vertices, std::span<const TriangleVertices> triangles)
       : content_(Mesh<FloatVertex>{vertices, triangles}) {}
+  /// A mesh in memory with attributes, under the same rules.
+  BuildInput(const Mesh<Vec3>& mesh) : content_(mesh) {}
+  /// A mesh in memory with float coordinates and attributes, under the same rules.
+  BuildInput(const Mesh<FloatVertex>& mesh) : content_(mesh) {}
   /// Triangles from a callback.
   explicit BuildInput(TriangleSource source, std::uint64_t expected_triangles = 0)
       : content_(Stream{std::move(source), expected_triangles}) {}
@@ -137,8 +147,8 @@ enum class SideChoice : std::uint8_t {
   kSurface  ///< SideRule::kSurface
 };
 
-/// Options of build(). Of these, only `page_bytes`, `box`, `side`, `layers` and `float64` change
-/// the bytes of the file.
+/// Options of build(). Of these, only `page_bytes`, `box`, `side`, `layers`, `keep`,
+/// `value_property` and `float64` change the bytes of the file.
 struct BuildOptions {
   /// Maximum memory of the build in bytes, at least kMinMemoryBytes. It limits the resident memory
   /// of the whole process if the rest of the program takes less than 64 MiB. Arrays of a BuildInput
@@ -163,10 +173,17 @@ struct BuildOptions {
   /// How queries decide sides by default; see SideRule.
   SideChoice side = SideChoice::kAuto;
   /// Layers of the file: kSideLayer and kFieldLayer, combined with `|`. The distance layer is
-  /// always built. What is left out is not built, takes no room in the file, and cannot be opened;
-  /// see OpenOptions::layers. Without kSideLayer the build makes neither mask nor caps. It matches
-  /// edges in any case, so that the file states whether the surface is watertight.
+  /// always built, and the attribute layer if `keep` is not 0. What is left out is not built, takes
+  /// no room in the file, and cannot be opened; see OpenOptions::layers. Without kSideLayer the
+  /// build makes neither mask nor caps. It matches edges in any case, so that the file states
+  /// whether the surface is watertight.
   std::uint32_t layers = kAllLayers;
+  /// Attributes that the file keeps, combined with `|`: kKeepTriangles, kKeepColor, kKeepUv and
+  /// kKeepValue. A mesh without one of them is an error. docs/formats.md says where each format has
+  /// them.
+  std::uint32_t keep = 0;
+  /// The property of a PLY's faces whose values kKeepValue keeps.
+  std::string value_property = "value";
   /// Keeps a checkpoint: completed work in a directory that is removed when the file is complete. A
   /// later build of the same input and options resumes it. The directory is `OUTPUT.work` beside
   /// the output. If `temp_directory` is set, it is there, and its name also has a hash of the
@@ -232,6 +249,7 @@ struct BuildReport {
   std::uint64_t blocks = 0;               ///< leaves of the tree: blocks of up to 16 triangles
   std::uint32_t levels = 0;               ///< height of the tree, in nodes
   std::uint32_t layers = kAllLayers;      ///< layers of the file; no field if it is too coarse
+  std::uint32_t attributes = 0;           ///< attributes that the file keeps; 0: none
   std::uint32_t pages = 0;                ///< pages of all layers
   std::uint64_t file_bytes = 0;           ///< length of the file
   std::uint64_t temporary_bytes = 0;      ///< bytes that were spilled to temporary files
@@ -246,8 +264,8 @@ struct BuildReport {
 /// Builds the .ptree file of a mesh. The file appears under its name when it is complete. After an
 /// error or a cancelled build an earlier file of that name is unchanged, and no new file is left,
 /// except for the checkpoint of BuildOptions::resume. The bytes of the file depend on the input,
-/// `page_bytes`, `box`, `side`, `layers`, `float64`, and the releases of planetree and LZ4, and on
-/// nothing else.
+/// `page_bytes`, `box`, `side`, `layers`, `keep`, `value_property`, `float64`, and the releases of
+/// planetree and LZ4, and on nothing else.
 ///
 /// input    triangles in any order. Records that cannot be used are skipped and counted.
 /// output   the file. Its directory must exist.
