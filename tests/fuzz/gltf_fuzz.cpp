@@ -13,7 +13,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   if (!file) std::abort();
   const auto declared = size_of_gltf(*file);
   read_twice([&](TriangleSink& sink, MeshScratch& scratch) {
-    const planetree::Result<MeshSummary> summary = read_gltf(*file, "", sink, scratch);
+    const planetree::Result<MeshSummary> summary =
+        read_gltf(*file, "", sink, scratch, keep_of(bytes, size) & kCornerAttributes);
     CheckingSink::expect(!summary ||
                          (declared && declared->triangles >= summary->triangle_indices &&
                           declared->vertices == summary->vertex_records));

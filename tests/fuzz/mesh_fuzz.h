@@ -7,6 +7,7 @@
 #include <string>
 
 #include "octree/builder/mesh/mesh_reader.h"
+#include "octree/builder/mesh/stream/corner_attributes.h"
 #include "tests/fuzz/memory_file.h"
 
 /// Parts that the fuzzers of mesh readers share.
@@ -39,6 +40,18 @@ class CheckingSink : public TriangleSink {
         float32_ &= value == static_cast<double>(static_cast<float>(value));
       }
     }
+    return {};
+  }
+
+  Result<void> attributes(const TriangleAttributes& attributes) override {
+    ++attribute_count_;
+    expect(attribute_count_ == triangle_count_);
+    digest_.add(attributes.colors.data(), sizeof attributes.colors);
+    digest_.add(&attributes.value, sizeof attributes.value);
+    // A NaN has several forms.
+    for (const TextureCoordinate& uv : attributes.uvs)
+      for (const float value : {uv.u, uv.v})
+        if (value == value) digest_.add(&value, sizeof value);
     return {};
   }
 
@@ -82,11 +95,18 @@ class CheckingSink : public TriangleSink {
 
  private:
   std::uint64_t next_index_ = 0;
-  std::uint64_t triangle_count_ = 0;
+  std::uint64_t triangle_count_ = 0, attribute_count_ = 0;
   std::uint64_t bytes_done_ = 0, bytes_total_ = 0;
   Digest digest_;
   bool float32_ = true;  ///< all corners so far are representable as float
 };
+
+/// The attributes that the byte in the middle of an input says to keep: none of most inputs, since
+/// a mesh that lacks one is refused.
+inline std::uint32_t keep_of(const std::uint8_t* bytes, std::size_t size) {
+  if (size == 0 || bytes[size / 2] % 4 != 3) return 0;
+  return bytes[size / 2] / 4 % 16 & kMeshAttributes;
+}
 
 /// Reads with enough memory and with very little. The results must be the same.
 ///

@@ -1,4 +1,4 @@
-#include "octree/builder/mesh/obj_reader.h"
+#include "octree/builder/mesh/obj/obj_reader.h"
 
 #include "octree/builder/mesh/stream/mesh_file.h"
 #include "tests/fuzz/mesh_fuzz.h"
@@ -10,8 +10,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   const planetree::MemoryFile memory(bytes, size);
   const planetree::Result<MeshFile> file = MeshFile::open(memory.path());
   if (!file) std::abort();
-  read_twice(
-      [&](TriangleSink& sink, MeshScratch& scratch) { return read_obj(*file, sink, scratch); });
+  read_twice([&](TriangleSink& sink, MeshScratch& scratch) {
+    return read_obj(*file, sink, scratch, keep_of(bytes, size) & kCornerAttributes);
+  });
   return 0;
 }
 

@@ -6,7 +6,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   using namespace planetree::octree;
   const planetree::MemoryFile file(bytes, size);
   read_twice([&](TriangleSink& sink, MeshScratch& scratch) {
-    return read_mesh(file.path(), sink, scratch);
+    return read_mesh(file.path(), sink, scratch, {.keep = keep_of(bytes, size)});
   });
   return 0;
 }

@@ -7,10 +7,11 @@
 #include "octree/builder/mesh/gltf/gltf_reader.h"
 #include "octree/builder/mesh/mesh_arrays.h"
 #include "octree/builder/mesh/mesh_format.h"
-#include "octree/builder/mesh/obj_reader.h"
+#include "octree/builder/mesh/obj/obj_reader.h"
 #include "octree/builder/mesh/off_reader.h"
 #include "octree/builder/mesh/ply_reader.h"
 #include "octree/builder/mesh/stl_reader.h"
+#include "octree/builder/mesh/stream/attribute_names.h"
 #include "octree/builder/mesh/stream/mesh_file.h"
 #include "octree/builder/mesh/triangle_stream.h"
 
@@ -27,15 +28,20 @@ Result<MeshSummary> read_open(const MeshFile& file, const std::filesystem::path&
     case MeshFormat::kPly:
       return read_ply(file, sink, scratch, options);
     case MeshFormat::kStlBinary:
-      return read_stl_binary(file, sink);
     case MeshFormat::kStlAscii:
-      return read_stl_ascii(file, sink);
+      if (const auto refused = refuse_attributes("an STL", options.keep); !refused)
+        return refused.error();
+      return *format == MeshFormat::kStlBinary ? read_stl_binary(file, sink)
+                                               : read_stl_ascii(file, sink);
     case MeshFormat::kOff:
+      if (const auto refused = refuse_attributes("an OFF", options.keep); !refused)
+        return refused.error();
       return read_off(file, sink, scratch);
     case MeshFormat::kObj:
-      return read_obj(file, sink, scratch);
+      return read_obj(file, sink, scratch, options.keep);
     case MeshFormat::kGltf:
-      return read_gltf(file, is_unpacked ? std::filesystem::path() : path, sink, scratch);
+      return read_gltf(file, is_unpacked ? std::filesystem::path() : path, sink, scratch,
+                       options.keep);
     case MeshFormat::kUnknown:
       break;
   }
@@ -53,6 +59,9 @@ class AfterUnpacking final : public TriangleSink {
 
   Result<void> triangle(std::uint64_t index, const std::array<Vec3, 3>& corners) override {
     return sink_.triangle(index, corners);
+  }
+  Result<void> attributes(const TriangleAttributes& attributes) override {
+    return sink_.attributes(attributes);
   }
   void skipped(std::uint64_t first_index, std::uint64_t count, const SkippedRecord& why) override {
     sink_.skipped(first_index, count, why);
@@ -97,11 +106,13 @@ struct Reader {
     return read_file(path, sink, scratch, options);
   }
   Result<MeshSummary> operator()(const BuildInput::Stream& stream) const {
+    if (const auto refused = refuse_attributes("a callback", options.keep); !refused)
+      return refused.error();
     return read_stream(stream, sink);
   }
   template <class Vertex>
   Result<MeshSummary> operator()(const BuildInput::Mesh<Vertex>& mesh) const {
-    return read_arrays(mesh, sink);
+    return read_arrays(mesh, sink, options.keep & kMeshAttributes);
   }
   TriangleSink& sink;
   MeshScratch& scratch;

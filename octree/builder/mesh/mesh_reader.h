@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <string>
+
 #include "octree/builder/mesh/stream/mesh_scratch.h"
 #include "octree/builder/mesh/stream/triangle_sink.h"
 #include "planetree/build.h"
@@ -20,6 +23,11 @@ namespace planetree::octree {
 struct MeshOptions {
   /// Coordinates that an ascii PLY declares as floats are read as doubles, with all their digits.
   bool float64 = false;
+  /// Attributes to deliver: kKeepColor, kKeepUv and kKeepValue, combined with `|`. A mesh that does
+  /// not have one of them is an error. Other bits have no effect.
+  std::uint32_t keep = 0;
+  /// Name of the property of a PLY's faces that kKeepValue reads.
+  std::string value_property = "value";
 };
 
 /// Reads a mesh into `sink`. The content of a file decides the format: the first line of a PLY;

@@ -21,6 +21,7 @@ struct MeshSize {
   /// 0 then: they are estimated after the content is unpacked. Of a glTF, the length of the buffers
   /// that are embedded in it. 0 for other files.
   std::uint64_t unpacked_bytes = 0;
+  std::uint32_t attributes = 0;  ///< that the file is to keep; estimate() does not set it
 
   /// Estimates the size of a file from its header and its length, or from samples of a text that
   /// declares nothing. A mesh in memory and a callback say their size.

@@ -11,19 +11,22 @@ constexpr std::size_t kCoordinates = 3;
 
 }  // namespace
 
-PlyAscii::PlyAscii(const MeshFile& file, const PlyHeader& header, FanEmitter& emitter,
-                   MeshScratch& scratch)
+PlyAscii::PlyAscii(const MeshFile& file, const PlyHeader& header, const PlyAttributes& attributes,
+                   FanEmitter& emitter, MeshScratch& scratch)
     : file_(file),
       header_(header),
+      attributes_(attributes),
       emitter_(emitter),
       scratch_(scratch),
-      axes_(header.vertices().properties.size(), -1),
+      numbers_(header.vertices().properties.size(), -1),
       // Where the body begins on the line of the header, lines tell nothing.
       layout_{header.has_loose_lines && header.body.records == 0, false, header.has_loose_lines,
-              static_cast<std::size_t>(scratch.window_bytes())} {
-  for (std::size_t axis = 0; axis < kCoordinates; ++axis) {
-    axes_[header.coordinates[axis]] = static_cast<int>(axis);
-  }
+              static_cast<std::size_t>(scratch.window_bytes())},
+      face_words_(header, attributes) {
+  for (std::size_t axis = 0; axis < kCoordinates; ++axis)
+    numbers_[header.coordinates[axis]] = static_cast<int>(axis);
+  for (std::size_t i = 0; i < attributes.vertex_numbers.size(); ++i)
+    numbers_[attributes.vertex_numbers[i]] = static_cast<int>(kCoordinates + i);
 }
 
 template <class Take>
@@ -71,7 +74,8 @@ Result<TextPosition> PlyAscii::vertices(TextPosition begin) {
 }
 
 Result<TextPosition> PlyAscii::read_vertices(TextPosition begin) {
-  vertices_.emplace(file_, header_.float32(), scratch_);
+  vertices_.emplace(file_, header_.float32(), attributes_.of_vertices,
+                    MeshScratch::text_bytes(scratch_.memory_bytes()), scratch_);
   const auto take = [this](std::uint64_t, PlyWords& words) { return take_vertex(words); };
   const auto end = each_record(header_.vertices(), {begin, 0, 0}, take);
   if (!end) return end.error();
@@ -79,17 +83,20 @@ Result<TextPosition> PlyAscii::read_vertices(TextPosition begin) {
 }
 
 Result<bool> PlyAscii::take_vertex(PlyWords& words) {
-  std::array<double, kCoordinates> position = {};
+  std::array<double, kCoordinates + PlyAttributes::kMaxNumbers> numbers = {};
   const std::vector<PlyProperty>& properties = header_.vertices().properties;
   for (std::size_t i = 0; i < properties.size(); ++i) {
-    const int axis = axes_[i];
-    const bool read = axis < 0
-                          ? words.pass(properties[i])
-                          : words.real(properties[i], position[static_cast<std::size_t>(axis)]);
+    const int number = numbers_[i];
+    const auto at = static_cast<std::size_t>(number);
+    const bool read = number < 0          ? words.pass(properties[i])
+                      : at < kCoordinates ? words.real(properties[i], numbers[at])
+                                          : words.number(properties[i], numbers[at]);
     if (!read) return *words.error();
   }
-  if (const auto added = vertices_->add({position[0], position[1], position[2]}); !added)
-    return added.error();
+  const auto behind = std::span(numbers).subspan(kCoordinates, attributes_.vertex_numbers.size());
+  const auto added = vertices_->add({numbers[0], numbers[1], numbers[2]},
+                                    vertex_attributes(header_, attributes_, behind));
+  if (!added) return added.error();
   if (layout_.is_loose) return end_loose_vertex(words);
   const std::size_t more = header_.numbers_behind_vertex.value_or(0);
   for (std::size_t i = 0; i < more; ++i)
@@ -130,7 +137,9 @@ Result<TextPosition> PlyAscii::faces(TextPosition begin) {
     return each_record(header_.faces(), from,
                        [&](std::uint64_t record, PlyWords& words) -> Result<bool> {
                          if (const auto taken = take_face(words); !taken) return taken.error();
-                         return take(IndexedFace(record, indices_));
+                         const auto* const attributes = face_words_.finish(record, indices_.size());
+                         emitter_.set_value(face_words_.value());
+                         return take(IndexedFace(record, indices_, 0, attributes));
                        });
   };
   const auto take_each_triangle = [this](const FacePosition& from, const auto& take) {
@@ -149,7 +158,8 @@ Result<void> PlyAscii::take_face(PlyWords& words) {
   for (std::size_t i = 0; i < element.properties.size(); ++i) {
     const PlyProperty& property = element.properties[i];
     std::int64_t value = 0;
-    bool read = i == header_.index_list ? words.length(property, value) : words.pass(property);
+    bool read =
+        i == header_.index_list ? words.length(property, value) : face_words_.take(i, words);
     for (std::int64_t left = value; read && left > 0; --left) {
       read = words.integer(property, value);
       indices_.push_back(value);
@@ -246,6 +256,7 @@ std::vector<std::string> PlyAscii::notes() const {
   if (left_out_)
     notes.push_back(left_out_.counted("triangle") +
                     " of strips with two equal vertices left out, " + left_out_.first());
+  add_uv_note(face_words_.wrong_uvs(), notes);
   return notes;
 }
 

@@ -6,7 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include "octree/builder/mesh/ply_attributes.h"
 #include "octree/builder/mesh/ply_body.h"
+#include "octree/builder/mesh/ply_face_words.h"
 #include "octree/builder/mesh/ply_strips.h"
 #include "octree/builder/mesh/ply_words.h"
 #include "octree/builder/mesh/stream/face_vertex_join.h"
@@ -26,8 +28,8 @@ namespace planetree::octree {
 class PlyAscii final : public PlyBody {
  public:
   /// All arguments must outlive this.
-  PlyAscii(const MeshFile& file, const PlyHeader& header, FanEmitter& emitter,
-           MeshScratch& scratch);
+  PlyAscii(const MeshFile& file, const PlyHeader& header, const PlyAttributes& attributes,
+           FanEmitter& emitter, MeshScratch& scratch);
 
   Result<TextPosition> skip(const PlyElement& element, TextPosition begin) override;
   Result<TextPosition> vertices(TextPosition begin) override;
@@ -56,21 +58,25 @@ class PlyAscii final : public PlyBody {
   Result<bool> take_vertex(PlyWords& words);
   /// Ends a vertex of a body with loose lines: compares what follows it with the first.
   Result<bool> end_loose_vertex(PlyWords& words);
-  /// Reads a face into indices_.
+  /// Reads a face into indices_ and face_words_.
   Result<void> take_face(PlyWords& words);
   /// Whether lines of a body with loose lines have several faces each.
   Result<bool> faces_share_lines(TextPosition begin);
 
   const MeshFile& file_;
   const PlyHeader& header_;
+  const PlyAttributes& attributes_;
   FanEmitter& emitter_;
   MeshScratch& scratch_;
-  std::vector<int> axes_;  ///< axis (0 to 2) of each property of a vertex, or -1
+  /// Number that each property of a vertex is, or -1: a coordinate (0 to 2) or, from 3 on, one of
+  /// PlyAttributes::vertex_numbers.
+  std::vector<int> numbers_;
   std::optional<TextVertices> vertices_;
   PlyLayout layout_;
   std::optional<std::uint64_t> words_behind_vertex_;  ///< as counted for the first
   bool may_be_words_ = false;          ///< loose lines look as if vertices began elsewhere
   std::vector<std::int64_t> indices_;  ///< vertices of the face being read
+  PlyFaceWords face_words_;            ///< its attributes
   std::optional<StripPosition> stop_;  ///< where each_triangle() was stopped
   MeshNote rounded_, left_out_;
 };

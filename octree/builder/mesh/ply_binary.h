@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "octree/builder/mesh/ply_attributes.h"
 #include "octree/builder/mesh/ply_body.h"
+#include "octree/builder/mesh/ply_face_bytes.h"
 #include "octree/builder/mesh/ply_records.h"
 #include "octree/builder/mesh/ply_strips.h"
 #include "octree/builder/mesh/ply_vertices.h"
@@ -24,8 +26,8 @@ namespace planetree::octree {
 class PlyBinary final : public PlyBody {
  public:
   /// All arguments must outlive this.
-  PlyBinary(const MeshFile& file, const PlyHeader& header, FanEmitter& emitter,
-            MeshScratch& scratch);
+  PlyBinary(const MeshFile& file, const PlyHeader& header, const PlyAttributes& attributes,
+            FanEmitter& emitter, MeshScratch& scratch);
 
   Result<TextPosition> skip(const PlyElement& element, TextPosition begin) override;
   Result<TextPosition> vertices(TextPosition begin) override;
@@ -50,6 +52,10 @@ class PlyBinary final : public PlyBody {
 
   /// Reads vertices with lists.
   Result<TextPosition> spill_vertices(TextPosition begin);
+  /// Adds a vertex with lists, whose properties are at these offsets.
+  Result<void> spill_vertex(const std::vector<std::uint64_t>& offsets);
+  /// Reads a number of a vertex; false if it cannot be read.
+  bool read_number(const std::vector<std::uint64_t>& offsets, std::size_t property, double& number);
   /// Calls take(face) for each face, as FaceVertexJoin::deliver() requires.
   template <class Take>
   Result<FacePosition> each_face(const FacePosition& from, const Take& take);
@@ -61,15 +67,18 @@ class PlyBinary final : public PlyBody {
     return records_.walk(header_.faces(), face, position,
                          [&](std::size_t i, std::uint64_t offset, std::uint64_t count) {
                            if (i == header_.index_list) list = {offset, count};
+                           face_bytes_.see(i, offset, count);
                          });
   }
 
   const MeshFile& file_;
   const PlyHeader& header_;
+  const PlyAttributes& attributes_;
   FanEmitter& emitter_;
   MeshScratch& scratch_;
   PlyRecords records_;
   PlyVertices vertices_;
+  PlyFaceBytes face_bytes_;
   std::optional<TextVertices> spilled_;  ///< in place of vertices_
   std::optional<StripPosition> stop_;    ///< where each_triangle() was stopped
   MeshNote left_out_;

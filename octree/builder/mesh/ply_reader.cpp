@@ -42,21 +42,27 @@ Result<MeshSummary> read_ply(const MeshFile& file, TriangleSink& sink, MeshScrat
   Result<PlyHeader> header = parse_prefix(file, parse_ply_header);
   if (!header) return header.error();
   if (options.float64) header->widen_text();
-  return read_ply_body(file, *header, sink, scratch);
+  const auto attributes = find_attributes(*header, options.keep, options.value_property);
+  if (!attributes) return attributes.error();
+  return read_ply_body(file, *header, sink, scratch, *attributes);
 }
 
 Result<MeshSummary> read_ply_body(const MeshFile& file, const PlyHeader& header, TriangleSink& sink,
-                                  MeshScratch& scratch) {
+                                  MeshScratch& scratch, const PlyAttributes& attributes) {
   FanEmitter emitter(sink, RecordKind::kFace, file.size_bytes());
+  emitter.set_keep(attributes.keep);
   std::unique_ptr<PlyBody> body;
   if (header.encoding == PlyEncoding::kAscii) {
-    body = std::make_unique<PlyAscii>(file, header, emitter, scratch);
+    body = std::make_unique<PlyAscii>(file, header, attributes, emitter, scratch);
   } else {
-    body = std::make_unique<PlyBinary>(file, header, emitter, scratch);
+    body = std::make_unique<PlyBinary>(file, header, attributes, emitter, scratch);
   }
   if (Result<void> read = read_elements(header, *body); !read) return read.error();
   Result<MeshSummary> summary = emitter.finish(header.float32());
-  if (summary) summary->notes = body->notes();
+  if (summary) {
+    summary->value_kind = attributes.value_kind;
+    summary->notes = body->notes();
+  }
   return header.encoding == PlyEncoding::kAscii ? with_note_of_padding(file, std::move(summary))
                                                 : summary;
 }

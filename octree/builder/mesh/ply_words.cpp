@@ -1,7 +1,11 @@
 #include "octree/builder/mesh/ply_words.h"
 
+#include <bit>
+#include <charconv>
 #include <cinttypes>
 #include <utility>
+
+#include "octree/builder/mesh/ply_attributes.h"
 
 namespace planetree::octree {
 
@@ -21,6 +25,15 @@ bool may_exceed_float(std::string_view word, double value) {
   const bool has_sign = word.front() == '-' || word.front() == '+';
   const bool has_zero = word[has_sign ? 1 : 0] == '0';
   return word.size() - has_sign - has_zero > kDigitsAndPoint || value >= 1e9 || value <= -1e9;
+}
+
+/// Parses all of a word as an integer that fits.
+template <class T>
+bool parse_whole(std::string_view word, T& value) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  const char* const end = word.data() + word.size();
+  const auto [behind, failure] = std::from_chars(word.data(), end, value);
+  return failure == std::errc() && behind == end && !word.empty();
 }
 
 }  // namespace
@@ -173,6 +186,30 @@ bool PlyWords::real(const PlyProperty& property, double& value) {
       rounded_->add(lines_.position().line, word);
     value = static_cast<double>(narrow);
   }
+  return true;
+}
+
+bool PlyWords::number(const PlyProperty& property, double& value) {
+  MeshNote* const rounded = std::exchange(rounded_, nullptr);
+  const bool is_number = real(property, value);
+  rounded_ = rounded;
+  return is_number;
+}
+
+bool PlyWords::value(const PlyProperty& property, std::uint64_t& value) {
+  const ValueKind kind = kind_of(property.type);
+  if (kind == ValueKind::kReal) {
+    double number = 0;
+    if (!this->number(property, number)) return false;
+    value = std::bit_cast<std::uint64_t>(number);
+    return true;
+  }
+  const std::string_view word = this->word(property);
+  if (kind == ValueKind::kUnsigned)
+    return parse_whole(word, value) || no_number(property, word, "an unsigned integer");
+  std::int64_t number = 0;
+  if (!parse_whole(word, number)) return no_number(property, word, "an integer");
+  value = std::bit_cast<std::uint64_t>(number);
   return true;
 }
 

@@ -58,6 +58,11 @@ class PlyWords {
   bool length(const PlyProperty& property, std::int64_t& value);
   /// Reads a number in the precision that the header declares, whatever digits the text has.
   bool real(const PlyProperty& property, double& value);
+  /// As real(), without counting digits.
+  bool number(const PlyProperty& property, double& value);
+  /// Reads a value as TriangleAttributes has it. An integer must fit in 64 bits, with or without
+  /// sign as the property is.
+  bool value(const PlyProperty& property, std::uint64_t& value);
   /// Passes over a value or a list.
   bool pass(const PlyProperty& property);
   /// Passes over the properties of a record from `first` up to `end`.

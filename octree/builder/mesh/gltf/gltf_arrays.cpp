@@ -70,6 +70,37 @@ Result<GltfSequence> GltfArrays::positions(std::uint64_t number) {
   return sequence(**found, accessor_name(number));
 }
 
+Result<GltfSequence> GltfArrays::colors(std::uint64_t number, std::uint64_t vertices) {
+  const auto found = accessor(number);
+  if (!found) return found.error();
+  const GltfAccessor& declared = **found;
+  const ScalarType type = declared.elements.type;
+  const bool is_share = type == ScalarType::kFloat32 || declared.is_normalized;
+  const bool is_known =
+      type == ScalarType::kFloat32 || type == ScalarType::kUint8 || type == ScalarType::kUint16;
+  if (declared.width < 3 || !is_share || !is_known)
+    return gltf_error(accessor_name(number) +
+                      " has no colours: they are a VEC3 or VEC4 of floats or normalized integers");
+  return attribute(declared, accessor_name(number), vertices);
+}
+
+Result<GltfSequence> GltfArrays::uvs(std::uint64_t number, std::uint64_t vertices) {
+  const auto found = accessor(number);
+  if (!found) return found.error();
+  if ((*found)->width != 2 || (*found)->elements.type == ScalarType::kUint32)
+    return gltf_error(accessor_name(number) +
+                      " has no texture coordinates: they are a VEC2 of floats");
+  return attribute(**found, accessor_name(number), vertices);
+}
+
+Result<GltfSequence> GltfArrays::attribute(const GltfAccessor& declared, const std::string& name,
+                                           std::uint64_t vertices) {
+  if (declared.count != vertices)
+    return gltf_error(name + " has " + std::to_string(declared.count) + " elements for " +
+                      std::to_string(vertices) + " vertices");
+  return sequence(declared, name);
+}
+
 Result<GltfSequence> GltfArrays::sequence(const GltfAccessor& declared, const std::string& name) {
   GltfSequence made;
   made.is_normalized = declared.is_normalized && is_integer(declared.elements.type);

@@ -45,9 +45,15 @@ class GltfArrays {
   ///         view or buffer. Those of GltfBuffers::open().
   Result<GltfSequence> positions(std::uint64_t accessor);
   Result<GltfSequence> indices(std::uint64_t accessor);
+  /// For as many vertices as positions.
+  Result<GltfSequence> colors(std::uint64_t accessor, std::uint64_t vertices);
+  Result<GltfSequence> uvs(std::uint64_t accessor, std::uint64_t vertices);
 
  private:
   Result<const GltfAccessor*> accessor(std::uint64_t number) const;
+  /// Checks the number of elements of an attribute.
+  Result<GltfSequence> attribute(const GltfAccessor& accessor, const std::string& name,
+                                 std::uint64_t vertices);
   Result<GltfSequence> sequence(const GltfAccessor& accessor, const std::string& name);
   Result<GltfArray> array(const GltfElements& elements, std::uint64_t count, unsigned width,
                           const std::string& name);

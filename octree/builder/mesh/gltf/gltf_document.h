@@ -38,7 +38,7 @@ struct GltfElements {
 struct GltfAccessor {
   GltfElements elements;
   std::uint64_t count = 0;
-  unsigned width = 0;  ///< numbers of an element: 1 of a scalar, 3 of a vector; 0 of others
+  unsigned width = 0;  ///< numbers of an element: 1 of a scalar, 2 to 4 of a vector; 0 of others
   bool is_normalized = false;
   std::uint64_t sparse_count = 0;
   GltfElements sparse_indices, sparse_values;
@@ -46,7 +46,7 @@ struct GltfAccessor {
 
 struct GltfPrimitive {
   unsigned mode = 4;
-  std::optional<std::uint64_t> positions, indices;  ///< accessors
+  std::optional<std::uint64_t> positions, indices, colors, uvs;  ///< accessors
   bool is_draco = false;
   bool has_targets = false;
 };

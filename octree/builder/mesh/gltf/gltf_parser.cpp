@@ -154,7 +154,11 @@ class GltfParser {
     accessor.elements = elements_of(object, object.number("bufferView"));
     accessor.count = object.count("count");
     const std::string type = object.text("type");
-    accessor.width = type == "SCALAR" ? 1 : type == "VEC3" ? 3 : 0;
+    accessor.width = type == "SCALAR" ? 1
+                     : type == "VEC2" ? 2
+                     : type == "VEC3" ? 3
+                     : type == "VEC4" ? 4
+                                      : 0;
     accessor.is_normalized = object.flag("normalized");
     if (object.has("sparse")) {
       const GltfObject sparse = object.part("sparse");
@@ -198,7 +202,10 @@ class GltfParser {
     GltfPrimitive primitive;
     primitive.mode = static_cast<unsigned>(std::min<std::uint64_t>(object.count_or("mode", 4), 7));
     primitive.indices = object.number("indices");
-    primitive.positions = object.part("attributes").number("POSITION");
+    const GltfObject attributes = object.part("attributes");
+    primitive.positions = attributes.number("POSITION");
+    primitive.colors = attributes.number("COLOR_0");
+    primitive.uvs = attributes.number("TEXCOORD_0");
     primitive.has_targets = object.has("targets");
     primitive.is_draco = object.has_extension(kDraco);
     document_.primitives.push_back(primitive);

@@ -6,12 +6,14 @@
 #include <utility>
 
 #include "octree/builder/mesh/gltf/gltf_arrays.h"
+#include "octree/builder/mesh/gltf/gltf_attributes.h"
 #include "octree/builder/mesh/gltf/gltf_buffers.h"
 #include "octree/builder/mesh/gltf/gltf_error.h"
 #include "octree/builder/mesh/gltf/gltf_faces.h"
 #include "octree/builder/mesh/gltf/gltf_parser.h"
 #include "octree/builder/mesh/gltf/gltf_scene.h"
 #include "octree/builder/mesh/gltf/gltf_vertices.h"
+#include "octree/builder/mesh/stream/attribute_names.h"
 #include "octree/builder/mesh/stream/face_vertex_join.h"
 #include "octree/builder/mesh/stream/fan_emitter.h"
 #include "octree/builder/mesh/stream/mesh_note.h"
@@ -76,14 +78,17 @@ bool has_triangles(const GltfPrimitive& primitive) {
 class GltfReader {
  public:
   GltfReader(const MeshFile& file, const std::filesystem::path& path, const GltfOutline& outline,
-             TriangleSink& sink, MeshScratch& scratch)
+             TriangleSink& sink, MeshScratch& scratch, std::uint32_t keep)
       : outline_(outline),
         scratch_(scratch),
         buffers_(file, path, outline.parts, outline.document, scratch),
         arrays_(outline.document, buffers_),
-        emitter_(sink, RecordKind::kFace, work_of(outline)) {}
+        emitter_(sink, RecordKind::kFace, work_of(outline)) {
+    emitter_.set_keep(keep);
+  }
 
   Result<MeshSummary> run() {
+    if (const auto found = expect_attributes(); !found) return found.error();
     const auto read =
         outline_.each_primitive([this](const GltfPlacement& placement, std::uint64_t number) {
           return take(placement, outline_.document.primitives[number]);
@@ -110,6 +115,52 @@ class GltfReader {
     return work;
   }
 
+  [[nodiscard]] bool keeps(std::uint32_t attribute) const {
+    return (emitter_.keep() & attribute) != 0;
+  }
+
+  /// Refuses a scene of which no primitive has an attribute that is kept.
+  [[nodiscard]] Result<void> expect_attributes() const {
+    bool has_colors = false, has_uvs = false;
+    (void)outline_.each_primitive([&](const GltfPlacement&, std::uint64_t number) -> Result<void> {
+      const GltfPrimitive& primitive = outline_.document.primitives[number];
+      if (!has_triangles(primitive) || !primitive.positions) return {};
+      has_colors |= primitive.colors.has_value();
+      has_uvs |= primitive.uvs.has_value();
+      return {};
+    });
+    if (keeps(kKeepColor) && !has_colors)
+      return missing_attribute(kKeepColor, "no primitive with 'COLOR_0'");
+    if (keeps(kKeepUv) && !has_uvs)
+      return missing_attribute(kKeepUv, "no primitive with 'TEXCOORD_0'");
+    return {};
+  }
+
+  /// Finds the attributes of a primitive, and counts those it lacks.
+  Result<GltfAttributes> attributes_of(const GltfPrimitive& primitive, std::uint64_t vertices) {
+    GltfAttributes attributes;
+    attributes.keep = emitter_.keep() & kCornerAttributes;
+    if (keeps(kKeepColor)) {
+      if (primitive.colors) {
+        const auto found = arrays_.colors(*primitive.colors, vertices);
+        if (!found) return found.error();
+        attributes.colors = *found;
+      } else {
+        ++without_colors_;
+      }
+    }
+    if (keeps(kKeepUv)) {
+      if (primitive.uvs) {
+        const auto found = arrays_.uvs(*primitive.uvs, vertices);
+        if (!found) return found.error();
+        attributes.uvs = *found;
+      } else {
+        ++without_uvs_;
+      }
+    }
+    return attributes;
+  }
+
   Result<void> take(const GltfPlacement& placement, const GltfPrimitive& primitive) {
     if (!has_triangles(primitive)) {
       if (primitive.mode > static_cast<unsigned>(GltfMode::kFan))
@@ -133,7 +184,9 @@ class GltfReader {
       if (!found) return found.error();
       indices = *found;
     }
-    GltfVertices vertices(*positions, placement.transform, kVertexWindowBytes);
+    const auto attributes = attributes_of(primitive, positions->base.count);
+    if (!attributes) return attributes.error();
+    GltfVertices vertices(*positions, *attributes, placement.transform, kVertexWindowBytes);
     GltfFaces faces(indices, vertices.count(), static_cast<GltfMode>(primitive.mode),
                     placement.transform.mirrors(), scratch_.window_bytes());
     return deliver(vertices, faces);
@@ -174,6 +227,8 @@ class GltfReader {
     add(without_triangles_, "primitive", " of points or lines not read");
     add(without_positions_, "primitive", " without positions not read");
     add(morphed_, "primitive", " with morph targets read without them");
+    add(without_colors_, "primitive", " without 'COLOR_0' read as white");
+    add(without_uvs_, "primitive", " without 'TEXCOORD_0' read with zeros");
     add(left_out_, "triangle", " of strips and fans with two equal vertices left out");
     add(rest_, "corner", " behind the last triangle of a primitive not read");
     return notes;
@@ -187,16 +242,19 @@ class GltfReader {
   std::uint64_t work_ = 0, record_ = 0, vertex_count_ = 0;
   bool float32_ = true;
   std::uint64_t without_triangles_ = 0, without_positions_ = 0, morphed_ = 0;  ///< primitives
+  std::uint64_t without_colors_ = 0, without_uvs_ = 0;
   std::uint64_t left_out_ = 0, rest_ = 0;
 };
 
 }  // namespace
 
 Result<MeshSummary> read_gltf(const MeshFile& file, const std::filesystem::path& path,
-                              TriangleSink& sink, MeshScratch& scratch) {
+                              TriangleSink& sink, MeshScratch& scratch, std::uint32_t keep) {
+  if (const auto refused = refuse_attributes("a glTF", keep & kKeepValue); !refused)
+    return refused.error();
   const auto outline = GltfOutline::read(file);
   if (!outline) return outline.error();
-  return GltfReader(file, path, *outline, sink, scratch).run();
+  return GltfReader(file, path, *outline, sink, scratch, keep).run();
 }
 
 Result<GltfSize> size_of_gltf(const MeshFile& file) {

@@ -19,8 +19,11 @@ namespace planetree::octree {
 ///
 /// path  of the file, to which the paths of other files with buffers are relative; empty if it is
 ///       the content of a compressed file.
+/// keep  as MeshOptions::keep. Colours are those of COLOR_0, as shares of 255 without a change of
+///       the colour space. Texture coordinates are those of TEXCOORD_0. A primitive without them is
+///       white or has zeros, and is noted.
 Result<MeshSummary> read_gltf(const MeshFile& file, const std::filesystem::path& path,
-                              TriangleSink& sink, MeshScratch& scratch);
+                              TriangleSink& sink, MeshScratch& scratch, std::uint32_t keep = 0);
 
 /// What a glTF declares, in numbers.
 struct GltfSize {

@@ -4,40 +4,23 @@
 
 namespace planetree::octree {
 
-namespace {
-
-/// The largest integer of a type.
-double largest(ScalarType type) {
-  switch (type) {
-    case ScalarType::kInt8:
-      return 127;
-    case ScalarType::kUint8:
-      return 255;
-    case ScalarType::kInt16:
-      return 32767;
-    default:
-      return 65535;
-  }
-}
-
-}  // namespace
-
 bool fits_float32(ScalarType type, bool is_normalized, const GltfTransform& transform) {
   return !is_normalized && fits_float32(type) && transform.keeps_floats();
 }
 
-GltfVertices::GltfVertices(const GltfSequence& positions, const GltfTransform& transform,
-                           std::size_t window_bytes)
+GltfVertices::GltfVertices(const GltfSequence& positions, const GltfAttributes& attributes,
+                           const GltfTransform& transform, std::size_t window_bytes)
     : sequence_(positions),
       transform_(transform),
       is_identity_(transform.is_identity()),
       float32_(fits_float32(positions.base.type, positions.is_normalized, transform)),
-      unit_(positions.is_normalized ? largest(positions.base.type) : 0),
+      unit_(positions.is_normalized ? largest_integer(positions.base.type) : 0),
       is_plain_(!kSwapLittle && is_identity_ && positions.base.file != nullptr &&
                 positions.base.type == ScalarType::kFloat32 &&
                 positions.base.stride == positions.base.element_bytes() &&
-                positions.sparse_indices.count == 0),
-      elements_(positions, window_bytes) {}
+                positions.sparse_indices.count == 0 && attributes.keep == 0),
+      elements_(positions, window_bytes),
+      attributes_(attributes, window_bytes) {}
 
 Vec3 GltfVertices::position(const std::byte* element) const {
   const auto number = [&](std::size_t axis) {
@@ -51,11 +34,14 @@ Vec3 GltfVertices::position(const std::byte* element) const {
 
 Result<void> GltfVertices::read(std::uint64_t first, std::span<std::byte> out) {
   if (is_plain_) return sequence_.base.file->read(sequence_.base.position(first), out);
-  const std::uint64_t count = out.size() / position_bytes();
+  const std::uint64_t count = out.size() / record_bytes();
   for (std::uint64_t i = 0; i < count; ++i) {
     const std::byte* const element = elements_.at(first + i);
     if (element == nullptr) return elements_.failure();
-    put_position(position(element), float32_, out.data() + i * position_bytes());
+    std::byte* const to = out.data() + i * record_bytes();
+    put_position(position(element), float32_, to);
+    if (attributes() == 0) continue;
+    if (const auto read = attributes_.read(first + i, to + position_bytes()); !read) return read;
   }
   return {};
 }

@@ -13,7 +13,7 @@
 
 namespace planetree::octree {
 
-/// Finds the positions of corners that name vertices in any order, within bounded memory. Corners
+/// Finds the records of corners that name vertices in any order, within bounded memory. Corners
 /// are distributed by vertex and joined with the vertices, which are read once and in order. Then
 /// they are distributed again, by their own numbers.
 ///
@@ -22,10 +22,12 @@ class CornerSort {
  public:
   /// vertices      complete; both it and `scratch` must outlive this.
   /// memory_bytes  approximate maximum of memory.
-  CornerSort(MeshVertices& vertices, MeshScratch& scratch, std::uint64_t memory_bytes);
+  CornerSort(MeshRecords& vertices, MeshScratch& scratch, std::uint64_t memory_bytes);
 
   /// Bytes on disk for a number of corners.
-  static std::uint64_t disk_bytes(std::uint64_t corners, bool float32);
+  /// attributes  of the vertices, as MeshVertices::attributes().
+  static std::uint64_t disk_bytes(std::uint64_t corners, bool float32,
+                                  std::uint32_t attributes = 0);
 
   /// Adds the next corner, numbered from 0. `vertex` is below vertices.count().
   Result<void> add(std::uint64_t vertex);
@@ -37,12 +39,12 @@ class CornerSort {
   ///       the joining and is returned.
   Result<void> match(const std::function<Result<void>(std::uint64_t, std::uint64_t)>& done);
 
-  /// Position of a corner that has a vertex, valid until the next call; fast where numbers ascend.
-  /// Null if it cannot be read: see failure().
+  /// Record of the vertex of a corner, valid until the next call; fast where numbers ascend. All
+  /// bytes are zero if the corner has none. Null if it cannot be read: see failure().
   const std::byte* at(std::uint64_t corner) {
     const std::uint64_t part = corner >> part_shift_;
     if (corner >= corner_count_ || (part != loaded_ && !load(part))) return missing(corner);
-    return positions_.data() + (corner & part_mask()) * position_bytes_;
+    return records_.data() + (corner & part_mask()) * record_bytes_;
   }
   [[nodiscard]] const Error& failure() const { return *failure_; }
 
@@ -52,13 +54,13 @@ class CornerSort {
     return static_cast<std::size_t>((count >> part_shift_) + 1);
   }
   Result<void> match_part(std::size_t part);
-  Result<void> position(const std::byte* corner);
+  Result<void> fill(const std::byte* corner);
   bool load(std::uint64_t part);
   const std::byte* missing(std::uint64_t corner);
 
-  MeshVertices& vertices_;
+  MeshRecords& vertices_;
   MeshScratch& scratch_;
-  const std::size_t position_bytes_;
+  const std::size_t record_bytes_;
   const std::uint64_t buffer_bytes_;  ///< memory of one distribution
   int part_shift_ = 0;                ///< a part has 2^part_shift_ vertices or corners, in memory
   std::uint64_t corner_count_ = 0;
@@ -69,7 +71,7 @@ class CornerSort {
   std::optional<ScratchFile> by_corner_file_;
   std::optional<storage::SpillBuckets> by_corner_;
 
-  std::vector<std::byte> positions_;  ///< positions of one part
+  std::vector<std::byte> records_;  ///< records of one part
   std::uint64_t loaded_ = ~std::uint64_t{0};
   std::optional<Error> failure_;
 };

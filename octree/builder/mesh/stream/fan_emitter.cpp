@@ -35,16 +35,28 @@ Result<void> FanEmitter::split(std::uint64_t record) {
   const PolygonFault fault = triangulator_.split(held_);
   if (fault != PolygonFault::kNone) note_odd(record, held_.size(), fault);
   if (!triangulator_.is_fan()) {
-    for (const auto& [a, b, c] : triangulator_.triangles())
-      if (const auto taken = sink_.triangle(next_index_++, {held_[a], held_[b], held_[c]}); !taken)
-        return taken;
+    for (const CornerTriple& triangle : triangulator_.triangles())
+      if (const auto taken = deliver_held(triangle); !taken) return taken;
     return {};
   }
-  for (std::size_t k = 2; k < held_.size(); ++k)
-    if (const auto taken = sink_.triangle(next_index_++, {held_[0], held_[k - 1], held_[k]});
-        !taken)
-      return taken;
+  for (std::uint32_t k = 2; k < held_.size(); ++k)
+    if (const auto taken = deliver_held({0, k - 1, k}); !taken) return taken;
   return {};
+}
+
+Result<void> FanEmitter::deliver_held(const CornerTriple& held) {
+  const auto& [a, b, c] = held;
+  return deliver({held_[a], held_[b], held_[c]}, held);
+}
+
+Result<void> FanEmitter::deliver_attributes(const CornerTriple& held) {
+  TriangleAttributes attributes;
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    attributes.colors[k] = held_attributes_[held[k]].color;
+    attributes.uvs[k] = held_attributes_[held[k]].uv;
+  }
+  attributes.value = value_;
+  return sink_.attributes(attributes);
 }
 
 void FanEmitter::note_odd(std::uint64_t record, std::uint64_t corner_count, PolygonFault fault) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "octree/builder/mesh/stream/corner_attributes.h"
 #include "octree/builder/mesh/stream/polygon_triangulator.h"
 #include "octree/builder/mesh/stream/triangle_sink.h"
 #include "planetree/error.h"
@@ -19,6 +20,7 @@ struct MeshCorner {
   Vec3 position;           ///< meaningless unless in_range
   std::int64_t value = 0;  ///< how the file names its vertex; see SkippedRecord::value
   bool in_range = true;    ///< whether the vertex exists
+  CornerAttributes attributes = {};
 };
 
 /// Splits polygons into triangles (PolygonTriangulator) and hands these to a sink. Counts triangle
@@ -30,6 +32,12 @@ class FanEmitter {
 
   /// Sets the number of vertices in the file, as far as it is known; for messages and the summary.
   void set_vertex_count(std::uint64_t count) noexcept { vertex_count_ = count; }
+
+  /// Delivers attributes with each triangle, of which `keep` names those that are read.
+  void set_keep(std::uint32_t keep) noexcept { keep_ = keep & kMeshAttributes; }
+  [[nodiscard]] std::uint32_t keep() const noexcept { return keep_; }
+  /// Sets the value of the triangles of the next records; see TriangleAttributes::value.
+  void set_value(std::uint64_t value) noexcept { value_ = value; }
 
   /// Delivers the triangles of a record, or skips the record.
   ///
@@ -52,6 +60,7 @@ class FanEmitter {
     std::array<Vec3, 3> three;
     MeshCorner corner;
     held_.clear();
+    held_attributes_.clear();
     for (std::uint64_t k = 0; k < corner_count; ++k) {
       if (!corners.first(k, corner)) return false;
       if (const std::optional<RecordFault> fault = fault_of(corner)) {
@@ -65,6 +74,7 @@ class FanEmitter {
       } else if (k < 3) {
         three[k] = position;
       }
+      if (keep_ != 0 && (is_held || k < 3)) held_attributes_.push_back(corner.attributes);
     }
     ++record_count_;
     any_delivered_ = true;
@@ -73,12 +83,14 @@ class FanEmitter {
       return true;
     }
     if (is_polygon) note_odd(record, corner_count, PolygonFault::kTooLong);
-    Result<void> taken = sink_.triangle(next_index_++, three);
+    Result<void> taken = deliver(three, {0, 1, 2});
     for (std::uint64_t k = 3; k < corner_count && taken; ++k) {
       if (!corners.again(k, corner)) return false;
       three[1] = three[2];
       three[2] = without_negative_zero(corner.position);
-      taken = sink_.triangle(next_index_++, three);
+      if (keep_ != 0)
+        held_attributes_ = {held_attributes_[0], held_attributes_[2], corner.attributes};
+      taken = deliver(three, {0, 1, 2});
     }
     if (!taken) return taken.error();
     return true;
@@ -136,6 +148,13 @@ class FanEmitter {
   void skipped(std::uint64_t record, std::uint64_t corner_count, RecordFault fault,
                std::int64_t value);
   Result<void> report(std::uint64_t bytes_done);
+  /// Delivers a triangle. `held` names the corners' attributes in held_attributes_.
+  Result<void> deliver(const std::array<Vec3, 3>& corners, const CornerTriple& held) {
+    const Result<void> taken = sink_.triangle(next_index_++, corners);
+    return taken && keep_ != 0 ? deliver_attributes(held) : taken;
+  }
+  Result<void> deliver_attributes(const CornerTriple& held);
+  Result<void> deliver_held(const CornerTriple& held);
   /// Delivers the polygon of the corners in held_.
   Result<void> split(std::uint64_t record);
   void note_odd(std::uint64_t record, std::uint64_t corner_count, PolygonFault fault);
@@ -150,7 +169,10 @@ class FanEmitter {
   std::uint64_t next_index_ = 0;
   bool any_delivered_ = false;
   std::optional<SkippedRecord> first_skipped_;
-  std::vector<Vec3> held_;  ///< corners of a polygon
+  std::uint32_t keep_ = 0;
+  std::uint64_t value_ = 0;
+  std::vector<Vec3> held_;                         ///< corners of a polygon
+  std::vector<CornerAttributes> held_attributes_;  ///< of these, or of a triangle
   PolygonTriangulator triangulator_;
   OddPolygons odd_;
 };

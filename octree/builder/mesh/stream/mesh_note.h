@@ -44,4 +44,24 @@ class MeshNote {
   std::string word_;
 };
 
+/// Counts records of one kind. A record is counted once, though the file may be read again from an
+/// earlier record on.
+class RecordNote {
+ public:
+  /// record  from 0; ascends until reading begins again.
+  void add(std::uint64_t record) {
+    if (record < next_) return;
+    if (count_++ == 0) first_ = record;
+    next_ = record + 1;
+  }
+
+  [[nodiscard]] std::uint64_t count() const { return count_; }
+  [[nodiscard]] std::uint64_t first() const { return first_; }
+  [[nodiscard]] explicit operator bool() const { return count_ > 0; }
+
+ private:
+  std::uint64_t count_ = 0, first_ = 0;
+  std::uint64_t next_ = 0;  ///< the first record that was not read yet
+};
+
 }  // namespace planetree::octree

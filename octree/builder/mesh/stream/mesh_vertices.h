@@ -5,26 +5,37 @@
 #include <cstring>
 #include <span>
 
+#include "octree/builder/mesh/stream/corner_attributes.h"
 #include "planetree/error.h"
 #include "planetree/types.h"
 
 namespace planetree::octree {
 
-/// The vertices of a mesh by index, wherever they are stored. A position is three floats or three
-/// doubles side by side, in the machine's byte order.
-class MeshVertices {
+/// Records of one size by index, wherever they are stored.
+class MeshRecords {
  public:
-  virtual ~MeshVertices() = default;
+  virtual ~MeshRecords() = default;
 
   [[nodiscard]] virtual std::uint64_t count() const = 0;
+  [[nodiscard]] virtual std::size_t record_bytes() const = 0;
+  /// Reads the records from `first` on, as many as fit in `out`. All of them are below count().
+  virtual Result<void> read(std::uint64_t first, std::span<std::byte> out) = 0;
+};
+
+/// The vertices of a mesh by index. A record is a position, which is three floats or three doubles
+/// side by side in the machine's byte order, and the attributes that are kept (put_attributes()).
+class MeshVertices : public MeshRecords {
+ public:
   /// Whether positions are floats.
   [[nodiscard]] virtual bool float32() const = 0;
-  /// Reads the positions of vertices from `first` on, as many as fit in `out`. All of them are
-  /// below count().
-  virtual Result<void> read(std::uint64_t first, std::span<std::byte> out) = 0;
+  /// The attributes that vertices have, of kCornerAttributes.
+  [[nodiscard]] virtual std::uint32_t attributes() const { return 0; }
 
   [[nodiscard]] std::size_t position_bytes() const {
     return 3 * (float32() ? sizeof(float) : sizeof(double));
+  }
+  [[nodiscard]] std::size_t record_bytes() const final {
+    return position_bytes() + attribute_bytes(attributes());
   }
 };
 

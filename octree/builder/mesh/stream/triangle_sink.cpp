@@ -23,6 +23,8 @@ const char* kind_name(RecordKind kind) {
 
 }  // namespace
 
+Result<void> TriangleSink::attributes(const TriangleAttributes&) { return {}; }
+
 std::string record_name(RecordKind kind, std::uint64_t record) {
   return std::string(kind_name(kind)) + " " + std::to_string(record);
 }

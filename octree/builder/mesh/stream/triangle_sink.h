@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "planetree/attributes.h"
 #include "planetree/error.h"
 #include "planetree/types.h"
 
@@ -44,6 +45,13 @@ struct SkippedRecord {
 /// Names a record, such as "face 17".
 std::string record_name(RecordKind kind, std::uint64_t record);
 
+/// What a mesh has for a triangle beside its corners. What is not read is as it is here.
+struct TriangleAttributes {
+  std::array<Color, 3> colors = {};           ///< of the corners
+  std::array<TextureCoordinate, 3> uvs = {};  ///< of the corners
+  std::uint64_t value = 0;                    ///< the bits, see MeshSummary::value_kind
+};
+
 /// Receives what a mesh reader finds, in the order of the input, on the thread that called
 /// read_mesh(). Indices ascend without a gap: triangle() and skipped() together name each index
 /// exactly once.
@@ -54,6 +62,10 @@ class TriangleSink {
   /// Receives a triangle. Its corners are finite and in model units, with +0 in place of -0. It may
   /// have no area. An error ends the reading and is returned from it.
   virtual Result<void> triangle(std::uint64_t index, const std::array<Vec3, 3>& corners) = 0;
+
+  /// Receives the attributes of the triangle that was delivered last, if MeshOptions::keep names
+  /// any. An error ends the reading and is returned from it.
+  virtual Result<void> attributes(const TriangleAttributes& attributes);
 
   /// Receives a record that takes the indices first_index ... first_index + count - 1 and gives no
   /// triangle; count >= 1.
@@ -84,6 +96,7 @@ struct MeshSummary {
   std::uint64_t triangle_indices = 0;  ///< indices given out, those of skipped records included
   bool float32 = false;  ///< float32 holds every value of the declared coordinate types
   OddPolygons odd_polygons = {};
+  ValueKind value_kind = ValueKind::kUnsigned;  ///< type of TriangleAttributes::value
   /// What the reader passed over or took in another way than it is written, a line for each kind.
   std::vector<std::string> notes = {};
 };

@@ -13,10 +13,10 @@ constexpr std::uint64_t kBlocks = 64;
 
 }  // namespace
 
-VertexCache::VertexCache(MeshVertices& vertices, std::uint64_t memory_bytes)
-    : vertices_(vertices), position_bytes_(vertices.position_bytes()) {
+VertexCache::VertexCache(MeshRecords& vertices, std::uint64_t memory_bytes)
+    : vertices_(vertices), record_bytes_(vertices.record_bytes()) {
   const std::uint64_t block_vertices =
-      std::min(kBlockBytes, memory_bytes / kBlocks) / position_bytes_;
+      std::min(kBlockBytes, memory_bytes / kBlocks) / record_bytes_;
   block_shift_ = static_cast<int>(std::bit_width(std::max<std::uint64_t>(block_vertices, 1))) - 1;
   const std::uint64_t space = memory_bytes / (block_bytes() + sizeof(Slot));
   const std::uint64_t blocks = (vertices.count() >> block_shift_) + 1;
@@ -40,15 +40,15 @@ bool VertexCache::enter(std::uint64_t block, Slot*& slot) {
 }
 
 bool VertexCache::load(std::uint64_t block, Slot& slot) {
-  if (!slot.positions)
-    slot.positions =
+  if (!slot.records)
+    slot.records =
         std::make_unique_for_overwrite<std::byte[]>(static_cast<std::size_t>(block_bytes()));
   // The old content is lost, whether the new block can be read or not.
   slot.block = kNone;
   const std::uint64_t first = block << block_shift_;
   const std::uint64_t count = std::min(std::uint64_t{1} << block_shift_, vertices_.count() - first);
-  const std::span<std::byte> out(slot.positions.get(),
-                                 static_cast<std::size_t>(count * position_bytes_));
+  const std::span<std::byte> out(slot.records.get(),
+                                 static_cast<std::size_t>(count * record_bytes_));
   if (const auto read = vertices_.read(first, out); !read) {
     failure_ = read.error();
     return false;

@@ -13,8 +13,8 @@
 
 namespace planetree::octree {
 
-/// Caches blocks of neighbouring vertices that were used lately. Vertices that faces close together
-/// share are read about once; each vertex is read at most once if all fit.
+/// Caches blocks of neighbouring vertices, or other records, that were used lately. Vertices that
+/// faces close together share are read about once; each vertex is read at most once if all fit.
 ///
 /// A block belongs to one of several sets, where it replaces the least recently used block. If all
 /// blocks fit, each has a slot of its own.
@@ -22,19 +22,19 @@ class VertexCache {
  public:
   /// vertices      complete; must outlive this.
   /// memory_bytes  approximate maximum of memory, taken as it is needed.
-  VertexCache(MeshVertices& vertices, std::uint64_t memory_bytes);
+  VertexCache(MeshRecords& vertices, std::uint64_t memory_bytes);
   VertexCache(const VertexCache&) = delete;
   VertexCache& operator=(const VertexCache&) = delete;
 
-  /// Position of a vertex below count(), valid until the next call. Null if it cannot be read: see
+  /// Record of a vertex below count(), valid until the next call. Null if it cannot be read: see
   /// failure().
   const std::byte* at(std::uint64_t vertex) {
     const std::uint64_t block = vertex >> block_shift_;
     Slot*& slot = known_[block % kKnown];
     if (slot->block != block && !enter(block, slot)) return nullptr;
     slot->used = ++clock_;
-    return slot->positions.get() +
-           (vertex & ((std::uint64_t{1} << block_shift_) - 1)) * position_bytes_;
+    return slot->records.get() +
+           (vertex & ((std::uint64_t{1} << block_shift_) - 1)) * record_bytes_;
   }
   [[nodiscard]] const Error& failure() const { return *failure_; }
 
@@ -50,15 +50,15 @@ class VertexCache {
   struct Slot {
     std::uint64_t block = kNone;
     std::uint64_t used = 0;  ///< clock_ at the last use
-    std::unique_ptr<std::byte[]> positions;
+    std::unique_ptr<std::byte[]> records;
   };
 
-  [[nodiscard]] std::uint64_t block_bytes() const { return position_bytes_ << block_shift_; }
+  [[nodiscard]] std::uint64_t block_bytes() const { return record_bytes_ << block_shift_; }
   bool enter(std::uint64_t block, Slot*& slot);
   bool load(std::uint64_t block, Slot& slot);
 
-  MeshVertices& vertices_;
-  const std::size_t position_bytes_;
+  MeshRecords& vertices_;
+  const std::size_t record_bytes_;
   int block_shift_ = 0;                   ///< a block has 2^block_shift_ vertices
   std::vector<Slot> slots_;               ///< the slots of a set are side by side
   std::size_t ways_ = 1;                  ///< slots of a set

@@ -46,6 +46,7 @@ class TemporaryFile {
 
 /// Records every call as one line, with all digits:
 ///   0: 0 0 0, 1 0 0, 0 1 0
+///     #000102ff 0 0, #030405ff 0.5 1, #060708ff 0 1, value 17
 ///   1+2 aside: face 1: vertex 9 is not finite
 class RecordingSink : public TriangleSink {
  public:
@@ -59,6 +60,19 @@ class RecordingSink : public TriangleSink {
     if (index == refuse_index) {
       return make_error(ErrorCode::kNoSpace, Error::kNowhere, Error::kNowhere, "refused");
     }
+    return {};
+  }
+  Result<void> attributes(const TriangleAttributes& attributes) override {
+    log += "  ";
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Color& c = attributes.colors[k];
+      const TextureCoordinate& t = attributes.uvs[k];
+      char corner[96];
+      std::snprintf(corner, sizeof corner, "#%02x%02x%02x%02x %.9g %.9g, ", c.red, c.green, c.blue,
+                    c.alpha, static_cast<double>(t.u), static_cast<double>(t.v));
+      log += corner;
+    }
+    log += "value " + std::to_string(attributes.value) + "\n";
     return {};
   }
   void skipped(std::uint64_t first_index, std::uint64_t count, const SkippedRecord& why) override {
@@ -92,9 +106,10 @@ inline std::string notes_of(const Reading& reading) {
   return text;
 }
 
-inline Reading read_path(const std::filesystem::path& path, MeshScratch& scratch) {
+inline Reading read_input(const BuildInput& input, MeshScratch& scratch,
+                          const MeshOptions& options = {}) {
   RecordingSink recorder;
-  const Result<MeshSummary> summary = read_mesh(path, recorder, scratch);
+  const Result<MeshSummary> summary = read_mesh(input, recorder, scratch, options);
   Reading reading;
   reading.log = recorder.log;
   if (summary) {
@@ -107,6 +122,10 @@ inline Reading read_path(const std::filesystem::path& path, MeshScratch& scratch
   return reading;
 }
 
+inline Reading read_path(const std::filesystem::path& path, MeshScratch& scratch) {
+  return read_input(path, scratch);
+}
+
 inline Reading read_path(const std::filesystem::path& path,
                          std::uint64_t memory_bytes = MeshScratch::kMemoryBytes) {
   MeshScratch scratch(memory_bytes);
@@ -117,6 +136,14 @@ inline Reading read_bytes(std::string_view bytes, const std::string& extension =
                           std::uint64_t memory_bytes = MeshScratch::kMemoryBytes) {
   const TemporaryFile file(bytes, extension);
   return read_path(file.path(), memory_bytes);
+}
+
+/// Reads a mesh with the attributes that `keep` names.
+inline Reading read_kept(std::string_view bytes, const std::string& extension, std::uint32_t keep,
+                         std::uint64_t memory_bytes = MeshScratch::kMemoryBytes) {
+  const TemporaryFile file(bytes, extension);
+  MeshScratch scratch(memory_bytes);
+  return read_input(file.path(), scratch, {.keep = keep});
 }
 
 /// Bytes of numbers in a given byte order.

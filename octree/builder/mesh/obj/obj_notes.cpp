@@ -1,4 +1,4 @@
-#include "octree/builder/mesh/obj_notes.h"
+#include "octree/builder/mesh/obj/obj_notes.h"
 
 #include <algorithm>
 #include <span>
