@@ -5,8 +5,10 @@
 
 # tests/layering fails when a header of include/planetree is not named here.
 set(planetree_headers
+  attributes.h
   build.h
   c.h
+  c_types.h
   contact.h
   eigen.h
   error.h
@@ -25,9 +27,9 @@ list(TRANSFORM planetree_headers PREPEND ${PROJECT_SOURCE_DIR}/include/planetree
 
 set(planetree_library_layers
   error storage_system storage_file storage_spill cache_policy cache
-  geometry page field traversal nearest winding mask
-  builder_job builder_mesh_stream builder_mesh_gltf builder_mesh builder_sort builder_surface builder_tree
-  builder_mask builder_field builder
+  geometry page field attributes traversal nearest winding mask
+  builder_job builder_mesh_stream builder_mesh_gltf builder_mesh_obj builder_mesh builder_sort builder_surface builder_tree
+  builder_mask builder_field builder_attributes builder
   query_file query_answer query_serve query query_shell c)
 
 function(planetree_add_library name)

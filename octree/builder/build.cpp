@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "octree/builder/build_files.h"
 #include "octree/builder/job/build_memory.h"
 #include "octree/builder/tree_builder.h"
 #include "octree/geometry/fp_environment.h"
@@ -95,18 +96,12 @@ class Observer final : public octree::BuildProgress {
   bool has_failed_ = false;
 };
 
-/// Path of the input; empty if it is in memory.
-fs::path path_of(const BuildInput& input) {
-  const auto* const path = std::get_if<fs::path>(&input.content());
-  return path ? *path : fs::path();
-}
-
 /// Checks before the build what it would otherwise find only at its end.
 Result<void> check_output(const BuildInput& input, const fs::path& output, bool replace) {
   std::error_code ignored;
   if (fs::is_directory(output, ignored))
     return error_of(ErrorCode::kBadArgument, "this is a directory; name a file in it");
-  if (fs::equivalent(path_of(input), output, ignored))
+  if (fs::equivalent(octree::path_of(input), output, ignored))
     return error_of(ErrorCode::kBadArgument, "this is the input itself; name another output");
   if (fs::exists(fs::symlink_status(output, ignored)) && !replace)
     return error_of(ErrorCode::kAlreadyExists,
@@ -131,6 +126,8 @@ octree::BuildOptions inner_options(const BuildOptions& options) {
     inner.side = options.side == SideChoice::kSurface ? storage::SideRule::kSurface
                                                       : storage::SideRule::kSolid;
   inner.layers = options.layers;
+  inner.keep = options.keep;
+  inner.value_property = options.value_property;
   inner.replace = options.replace;
   if (options.box) inner.box = {options.box->lower, options.box->upper};
   inner.resume = options.resume;
@@ -168,7 +165,9 @@ BuildReport report_of(const octree::BuildReport& built) {
   report.blocks = model.block_count;
   report.levels = model.height;
   report.layers = kDistanceLayer | (model.has_side_layer() ? kSideLayer : 0) |
-                  (model.field_page_count > 0 ? kFieldLayer : 0);
+                  (model.field_page_count > 0 ? kFieldLayer : 0) |
+                  (model.attributes != 0 ? kAttributeLayer : 0);
+  report.attributes = model.attributes;
   report.pages = header.page_count;
   report.file_bytes = header.file_bytes;
   report.temporary_bytes = built.temporary_bytes;
@@ -218,7 +217,7 @@ Result<BuildReport> build(const BuildInput& input, const std::filesystem::path& 
                           const BuildOptions& options) {
   Observer observer(options);
   auto report = build_without_throwing(input, output, options, observer);
-  if (!report) observer.failed_at(path_of(input));
+  if (!report) observer.failed_at(octree::path_of(input));
   return report;
 }
 

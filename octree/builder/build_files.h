@@ -13,11 +13,15 @@
 #include "octree/builder/job/build_progress.h"
 #include "octree/builder/mesh/stream/mesh_scratch.h"
 #include "octree/builder/space_need.h"
+#include "planetree/build.h"
 #include "planetree/error.h"
 #include "storage/spill/spill_file.h"
 #include "storage/system/file_calls.h"
 
 namespace planetree::octree {
+
+/// Path of an input; empty if it is in memory or a callback.
+std::filesystem::path path_of(const BuildInput& input);
 
 /// The files of a build beside its input and output: temporary files without names and, for a build
 /// that can be resumed, the checkpoint.

@@ -18,7 +18,7 @@ namespace planetree::octree {
 namespace {
 
 /// To be raised with every change of the records or of what trees consist of.
-constexpr int kWorkVersion = 8;
+constexpr int kWorkVersion = 9;
 
 constexpr std::uint64_t kSampleBlocks = 64;
 constexpr std::uint64_t kBlockBytes = 4096;
@@ -95,8 +95,8 @@ Result<BuildIdentity> identity_of(const std::filesystem::path& input, storage::F
   add(*identity);
   for (const std::filesystem::path& path : *side_files) {
     const auto side = identity_of_file(path, calls);
-    if (!side) return side;
-    add(*side);
+    // The reader of the mesh names the file that it cannot open.
+    add(side ? *side : BuildIdentity());
   }
   identity->sample_low = hasher.value().low;
   identity->sample_high = hasher.value().high;
@@ -108,6 +108,10 @@ BuildIdentity identity_of(const BuildInput::Mesh<Vertex>& mesh) {
   storage::Hasher128 hasher;
   hasher.add(std::as_bytes(mesh.vertices));
   hasher.add(std::as_bytes(mesh.triangles));
+  hasher.add(std::as_bytes(mesh.colors));
+  hasher.add(std::as_bytes(mesh.uvs));
+  hasher.add(std::as_bytes(mesh.values));
+  hasher.add(std::as_bytes(std::span(&mesh.value_kind, 1)));
   BuildIdentity identity;
   identity.input_bytes = mesh.vertices.size_bytes() + mesh.triangles.size_bytes();
   identity.input_number = sizeof(Vertex);
@@ -142,6 +146,8 @@ Result<BuildIdentity> BuildIdentity::of(const BuildInput& input, const BuildOpti
   identity.version = version_text();
   identity.page_bytes = options.page_bytes;
   identity.with_sides = options.has_side_layer();
+  identity.attributes = options.kept_attributes();
+  identity.value_property = options.value_property;
   identity.strict = options.strict;
   identity.float64 = options.float64;
   identity.chunk_triangles = seams.chunk_triangles;

@@ -29,6 +29,8 @@ struct BuildIdentity {
 
   std::uint32_t page_bytes = 0;
   bool with_sides = true;
+  std::uint32_t attributes = 0;
+  std::string value_property;
   bool strict = false;
   bool float64 = false;
   std::uint64_t chunk_triangles = 0;
@@ -51,8 +53,9 @@ requires std::same_as<std::remove_const_t<Value>, BuildIdentity>
 void fields(Record& record, Value& identity) {
   record(identity.version, identity.input_bytes, identity.input_number, identity.changed_seconds,
          identity.changed_nanoseconds, identity.sample_low, identity.sample_high,
-         identity.page_bytes, identity.with_sides, identity.strict, identity.float64,
-         identity.chunk_triangles, identity.sector_triangles, identity.box);
+         identity.page_bytes, identity.with_sides, identity.attributes, identity.value_property,
+         identity.strict, identity.float64, identity.chunk_triangles, identity.sector_triangles,
+         identity.box);
 }
 
 }  // namespace planetree::octree

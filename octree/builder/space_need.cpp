@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "octree/attributes/attribute_page.h"
+
+#include "octree/builder/attributes/triangle_links.h"
 #include "octree/builder/mesh/stream/corner_sort.h"
 #include "octree/builder/mesh/stream/mesh_scratch.h"
 #include "octree/builder/sort/triangles.h"
@@ -72,6 +75,11 @@ std::uint64_t position_bytes(const MeshSize& size) {
   return 3 * (size.float64 ? sizeof(double) : sizeof(float));
 }
 
+// Of a text, as it is spilled. Texture coordinates of an OBJ are spilled by themselves.
+std::uint64_t vertex_bytes(const MeshSize& size) {
+  return position_bytes(size) + attribute_bytes(size.attributes);
+}
+
 std::uint64_t raw_page_bytes(const MeshSize& size) {
   const std::uint64_t vertex_bytes = position_bytes(size);
   // A vertex is stored in every page that has one of its triangles.
@@ -109,6 +117,11 @@ SpaceNeed SpaceNeed::after_reading(const MeshSize& size, const BuildMemory& memo
   if (!cut) need = after_cutting(size, memory, 0);
   need.temporary_bytes =
       excess(need.temporary_bytes + spilled_bytes(size, memory, memory.runs_bytes), kept_bytes);
+  if (size.attributes != 0) {
+    const AttributeShape shape{size.attributes};
+    need.temporary_bytes += size.triangles * (shape.extra_bytes() + TriangleLinks::kTriangleBytes);
+    need.output_bytes += size.triangles * shape.triangle_bytes();
+  }
   if (!matched) need.temporary_bytes += edge_bytes(size, memory);
   return need;
 }
@@ -119,7 +132,7 @@ SpaceNeed SpaceNeed::before_reading(const MeshSize& size, const BuildMemory& mem
   need.temporary_bytes += size.unpacked_bytes;
   if (size.is_indexed_text)
     need.temporary_bytes +=
-        excess(size.vertices * position_bytes(size), MeshScratch::text_bytes(memory.reading_bytes));
+        excess(size.vertices * vertex_bytes(size), MeshScratch::text_bytes(memory.reading_bytes));
   return need;
 }
 
@@ -127,7 +140,8 @@ SpaceNeed SpaceNeed::before_sorting(const MeshSize& size, const BuildMemory& mem
                                     std::uint64_t written_bytes, bool cut) {
   SpaceNeed need = before_reading(size, memory, cut);
   need.temporary_bytes =
-      excess(need.temporary_bytes + CornerSort::disk_bytes(3 * size.triangles, !size.float64),
+      excess(need.temporary_bytes +
+                 CornerSort::disk_bytes(3 * size.triangles, !size.float64, size.attributes),
              written_bytes);
   return need;
 }

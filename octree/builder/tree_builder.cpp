@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "octree/builder/build_files.h"
@@ -65,10 +64,7 @@ class TreeBuild {
   }
 
  private:
-  std::filesystem::path input_path() const {
-    const auto* const path = std::get_if<std::filesystem::path>(&input_.content());
-    return path ? *path : std::filesystem::path();
-  }
+  std::filesystem::path input_path() const { return path_of(input_); }
   Result<void> resume_work();
   Result<void> check_space(const Result<MeshSize>& size);
   Result<void> order_triangles();
@@ -125,6 +121,7 @@ Result<void> TreeBuild::resume_work() {
 Result<void> TreeBuild::check_space(const Result<MeshSize>& size) {
   if (!size) return size.error();
   size_ = *size;
+  size_.attributes = options_.kept_attributes();
   if (files_.work() && files_.work()->mesh()) return {};  // its triangles are counted
   return files_.check_space(SpaceNeed::before_reading(size_, memory_, options_.box.has_value()));
 }
@@ -157,7 +154,7 @@ Result<void> TreeBuild::read() {
     return check_space(
         MeshSize::estimate(content, unpacked_path(input_path()), {options_.float64}));
   });
-  auto mesh = read_unordered(input_, options_, files_.mesh(), progress_, spool);
+  auto mesh = read_unordered(input_, options_, files_.mesh(), progress_, spool, files_.triangles());
   if (!mesh) return mesh.error();
   if (const auto set = set_mesh(*mesh); !set) return set;
   whole_.emplace(mesh->frame.float64, memory_.runs_bytes, files_.triangles());
@@ -176,12 +173,13 @@ Result<void> TreeBuild::set_mesh(const OrderedMesh& mesh) {
   model_.vertex_records = mesh.vertex_records;
   model_.shape.float64 = mesh.frame.float64;
   model_.shape.wide_ids = mesh.wide_ids;
+  model_.attributes = KeptAttributes::of(mesh, options_, files_.triangles());
   if (model_.box)
     if (const auto near = model_.box->check_meets(model_.frame); !near) return near;
   // A callback need not say its size. A closed surface has half as many vertices as triangles.
   const std::uint64_t vertices =
       size_.vertices > 0 ? size_.vertices : mesh.frame.triangle_count / 2;
-  size_ = {mesh.frame.triangle_count, vertices, mesh.frame.float64};
+  size_ = {mesh.frame.triangle_count, vertices, mesh.frame.float64, false, 0, size_.attributes};
   const Checkpoint* const work = files_.work();
   return files_.check_space(
       SpaceNeed::after_reading(size_, memory_, work ? work->resumed_bytes() : 0,
@@ -321,8 +319,8 @@ Result<BuildReport> TreeBuild::write_pages() {
     model_.field = *std::move(field);
   }
   writing_ = true;
-  const auto header =
-      write_tree(model_, *tree_, *caps_, output_, options_, seams_.calls, progress_);
+  const auto header = write_tree(model_, *tree_, *caps_, output_, options_, seams_.calls,
+                                 files_.scratch(), progress_);
   if (!header) return header.error();
   if (const auto removed = files_.remove_work(); !removed) return removed.error();
   return BuildReport{*header, model_.frame, files_.disk_bytes(), notes_};

@@ -73,16 +73,31 @@ void describe_tree(const BuiltModel& built, const BuiltTree& tree, storage::Mode
   model.mask_levels = static_cast<std::uint8_t>(built.mask->levels());
 }
 
+/// others  number of all other pages of the file.
+Result<std::uint32_t> count_attribute_pages(const BuiltModel& built, std::uint32_t others,
+                                            const BuildOptions& options) {
+  const std::uint64_t count = built.attributes.page_count(options.page_bytes);
+  if (count <= LinkFormat(options.page_bytes).max_pages() - others)
+    return static_cast<std::uint32_t>(count);
+  return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
+                    "%llu pages of attributes, more than a file has; build with a larger page size",
+                    static_cast<unsigned long long>(count));
+}
+
 }  // namespace
 
 Result<storage::FileHeader> write_tree(const BuiltModel& built, const BuiltTree& tree,
                                        const CapTree& caps, const std::filesystem::path& output,
                                        const BuildOptions& options, storage::FileCalls& calls,
-                                       BuildProgress& progress) {
+                                       storage::SpillFile& scratch, BuildProgress& progress) {
   const TreePages& pages = tree.pages();
   const std::uint32_t mask_pages = built.mask ? built.mask->size() : 0;
   const BuiltTrees trees(&tree, caps.tree());
-  const std::uint32_t first_mask_page = trees.page_count() + built.field.page_count();
+  const std::uint32_t first_attribute_page = trees.page_count() + built.field.page_count();
+  const auto attribute_pages =
+      count_attribute_pages(built, first_attribute_page + mask_pages, options);
+  if (!attribute_pages) return attribute_pages.error();
+  const std::uint32_t first_mask_page = first_attribute_page + *attribute_pages;
   const std::uint32_t page_count = first_mask_page + mask_pages;
   auto writer = storage::PageWriter::create(output, page_count, options.replace, calls);
   if (!writer) return writer.error();
@@ -91,8 +106,15 @@ Result<storage::FileHeader> write_tree(const BuiltModel& built, const BuiltTree&
   const bool has_walls = built.box && built.box->region(built.frame).has_walls();
   std::optional<HeightFieldMarks> height_fields;
   if (built.mask && !has_walls) height_fields.emplace(trees, *built.mask);
+  std::optional<TriangleLinks> links;
+  if (*attribute_pages > 0)
+    links.emplace(built.attributes.index_count,
+                  built.attributes.shape.triangles_per_page(options.page_bytes), built.shape,
+                  options.page_bytes, scratch);
   const auto appended = appender.append(pages.size(), [&](std::uint32_t number) {
     auto page = pages.encode(number);
+    if (page && links)
+      if (const auto linked = links->add(number, page->bytes); !linked) page = linked.error();
     if (page && height_fields)
       if (const auto marked = height_fields->mark(number, *page); !marked) page = marked.error();
     return page;
@@ -111,6 +133,12 @@ Result<storage::FileHeader> write_tree(const BuiltModel& built, const BuiltTree&
     return Result<FilePage>(built.field.encode(page, trees.page_count()));
   });
   if (!added) return added.error();
+  if (links) {
+    writer->begin_attributes();
+    AttributePages attributes(built.attributes, *links, options.page_bytes);
+    if (const auto kept = attributes.append_to(appender, first_attribute_page); !kept)
+      return kept.error();
+  }
   writer->begin_mask();
   const auto masked = appender.append(
       mask_pages, [&](std::uint32_t page) { return built.mask->encode(page, first_mask_page); });
@@ -122,6 +150,7 @@ Result<storage::FileHeader> write_tree(const BuiltModel& built, const BuiltTree&
   describe_tree(built, tree, model);
   caps.describe(model);
   built.field.describe(model);
+  built.attributes.describe(options.page_bytes, model);
   return writer->finish(model, options.page_bytes);
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "octree/builder/attributes/attribute_pages.h"
 #include "octree/builder/cap_tree.h"
 #include "octree/builder/field/built_field.h"
 #include "octree/builder/job/build_options.h"
@@ -35,18 +36,20 @@ struct BuiltModel {
   std::vector<BuiltChunk> chunks;  ///< in the order of above.chunks
   std::optional<BuiltMask> mask;   ///< only if triangles are in the region
   BuiltField field;
+  KeptAttributes attributes;
 };
 
 /// Joins the parts and writes the file, completely or not at all.
 ///
 /// tree     the tree of the model's chunks, and `caps` that of its caps.
 /// calls    the system.
+/// scratch  for temporary data.
 /// return   the header as written.
-/// errors   those of SpillFile and PageWriter.
+/// errors   those of SpillFile and PageWriter; kBadArgument: too many pages for a file.
 /// Uses the calling thread's TBB arena.
 Result<storage::FileHeader> write_tree(const BuiltModel& model, const BuiltTree& tree,
                                        const CapTree& caps, const std::filesystem::path& output,
                                        const BuildOptions& options, storage::FileCalls& calls,
-                                       BuildProgress& progress);
+                                       storage::SpillFile& scratch, BuildProgress& progress);
 
 }  // namespace planetree::octree

@@ -26,8 +26,21 @@ bool SpillExtent::take(const std::vector<TriangleRuns::Extent>& runs, std::uint6
   return left == 0;
 }
 
+bool SpillExtent::take(const SpooledAttributes& attributes, std::uint64_t indices) {
+  if (attributes.record_bytes == 0) return attributes.count == 0 && attributes.offsets.empty();
+  constexpr std::uint64_t kInBlock = SpooledAttributes::kBlockRecords;
+  if (attributes.count != indices || attributes.offsets.size() != (indices - 1) / kInBlock + 1)
+    return false;
+  for (std::uint64_t block = 0; block < attributes.offsets.size(); ++block)
+    if (!take(attributes.offsets[static_cast<std::size_t>(block)], attributes.block_records(block),
+              attributes.record_bytes))
+      return false;
+  return true;
+}
+
 bool SpillExtent::take(const OrderedMesh& mesh) {
-  return mesh.frame.triangle_count > 0 &&
+  return mesh.frame.triangle_count > 0 && mesh.value_kind <= ValueKind::kReal &&
+         take(mesh.attributes, mesh.frame.triangle_count + mesh.frame.skipped_count) &&
          take(mesh.runs, mesh.frame.triangle_count, mesh.frame.float64);
 }
 

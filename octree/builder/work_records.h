@@ -50,6 +50,7 @@ class SpillExtent {
   bool take(const std::vector<SpilledPage>& pages, std::size_t head_bytes);
   bool take(const std::vector<TriangleRuns::Extent>& runs, std::uint64_t triangles, bool float64);
   bool take(const TriangleRuns::Extent& run, bool float64);
+  bool take(const SpooledAttributes& attributes, std::uint64_t indices);
   bool take(std::uint64_t offset, std::uint64_t count, std::uint64_t each_bytes);
 
   std::uint64_t file_bytes_;
@@ -74,9 +75,15 @@ void fields(Record& record, Value& extent) {
   record(extent.offset, extent.size, extent.marks);
 }
 
+template <class Record, IsA<SpooledAttributes> Value>
+void fields(Record& record, Value& attributes) {
+  record(attributes.offsets, attributes.count, attributes.record_bytes);
+}
+
 template <class Record, IsA<OrderedMesh> Value>
 void fields(Record& record, Value& mesh) {
-  record(mesh.frame, mesh.vertex_records, mesh.wide_ids, mesh.runs, mesh.notes);
+  record(mesh.frame, mesh.vertex_records, mesh.wide_ids, mesh.runs, mesh.notes, mesh.attributes,
+         mesh.value_kind);
 }
 
 template <class Record, IsA<UnbalancedEdge> Value>

@@ -14,7 +14,9 @@ struct PageInfo {
   std::uint32_t page_bytes = 0;  ///< bytes of every frame
   std::uint32_t first_page = 0;  ///< first page of the page's section
   std::uint32_t page_count = 0;  ///< pages of the page's section
-  std::uint32_t tree_pages = 0;  ///< of a mask page: pages of trees, which lists link to
+  /// Pages of trees: of a mask page those that its lists link to, of an attribute page those of the
+  /// surface.
+  std::uint32_t tree_pages = 0;
   BlockShape shape;
   std::uint32_t page_number = 0;
   std::uint64_t octcode = 0;

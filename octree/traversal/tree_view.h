@@ -159,6 +159,8 @@ class LinkResolver {
   bool is_in_current_page(std::uint32_t link) const {
     return links_.page(link) == page_number_ && frame_;
   }
+  /// Returns whether the page of the last link is available.
+  bool has_page() const { return frame_ != nullptr; }
   /// Notes that the search goes on without the record found last, of this squared bound. Returns
   /// the bound.
   float skip(float bound) const {

@@ -20,7 +20,8 @@ Result<LoadedField> load_field(const storage::PageFile& file, std::span<std::byt
   const std::span<octree::FieldPoint> points(reinterpret_cast<octree::FieldPoint*>(memory.data()),
                                              field_shape(header.model).count());
   std::size_t read = 0;
-  for (std::uint32_t page = header.first_field_page(); page < header.first_mask_page(); ++page) {
+  for (std::uint32_t page = header.first_field_page(); page < header.first_attribute_page();
+       ++page) {
     const storage::PageEntry& entry = file.entries()[page];
     const std::span<std::byte> bytes(raw.get(), entry.raw_bytes);
     const std::size_t count = field_points(header, page);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "planetree/layers.h"
@@ -10,7 +11,8 @@ namespace planetree::query {
 /// Returns the layers that a file has.
 inline std::uint32_t layers_of(const storage::ModelRecord& model) noexcept {
   return kDistanceLayer | (model.has_side_layer() ? kSideLayer : 0) |
-         (model.field_page_count > 0 ? kFieldLayer : 0);
+         (model.field_page_count > 0 ? kFieldLayer : 0) |
+         (model.attributes != 0 ? kAttributeLayer : 0);
 }
 
 /// The layers of a file that a model opens, and the pages that its queries may read.
@@ -24,13 +26,22 @@ struct OpenLayers {
 
   bool has_side() const noexcept { return (layers & kSideLayer) != 0; }
   bool has_field() const noexcept { return (layers & kFieldLayer) != 0; }
-  /// Number of pages up to the last one that a query may read.
+  bool has_attributes() const noexcept { return (layers & kAttributeLayer) != 0; }
+  /// Number of pages up to the last one that the cache may hold.
   std::uint32_t page_count(const storage::FileHeader& header) const noexcept {
-    return has_side() ? header.page_count : header.first_cap_page();
+    if (has_side()) return header.page_count;
+    return has_attributes() ? header.first_mask_page() : header.first_cap_page();
   }
-  /// How many of these no query reads: the field pages, which are read when the model is opened.
+  /// First of the pages that the cache never holds, which follow one another: those of layers that
+  /// are not open, and the field pages, which are read when the model is opened.
+  std::uint32_t first_unused_page(const storage::FileHeader& header) const noexcept {
+    return has_side() ? header.first_field_page() : header.first_cap_page();
+  }
+  /// How many these are, below page_count().
   std::uint32_t unused_pages(const storage::FileHeader& header) const noexcept {
-    return has_side() ? header.first_mask_page() - header.first_field_page() : 0;
+    const std::uint32_t end =
+        has_attributes() ? header.first_attribute_page() : header.first_mask_page();
+    return std::min(end, page_count(header)) - first_unused_page(header);
   }
 };
 

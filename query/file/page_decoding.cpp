@@ -44,18 +44,40 @@ std::size_t field_points(const storage::FileHeader& header, std::uint32_t page) 
   return static_cast<std::size_t>(std::min(in_page, field_shape(header.model).count() - before));
 }
 
+// The bits and sizes of the file are those of the pages.
+static_assert(storage::kAttributeLinks == kKeepTriangles);
+static_assert(storage::kAttributeColors == kKeepColor);
+static_assert(storage::kAttributeUvs == kKeepUv);
+static_assert(storage::kAttributeValues == kKeepValue);
+static_assert(storage::kAttributeHeadBytes == octree::AttributeShape::kHeadBytes);
+
+octree::AttributeShape attribute_shape(const storage::ModelRecord& model) noexcept {
+  return {model.attributes};
+}
+
+std::uint32_t attribute_triangles(const storage::FileHeader& header, std::uint32_t page) noexcept {
+  const std::uint64_t in_page = header.triangles_per_attribute_page();
+  const std::uint64_t before = in_page * (page - header.first_attribute_page());
+  return static_cast<std::uint32_t>(std::min(in_page, header.model.index_count() - before));
+}
+
 octree::PageInfo page_info(const storage::FileHeader& header, const storage::PageEntry& entry,
                            std::uint32_t page) noexcept {
-  const std::uint32_t starts[] = {0, header.first_cap_page(), header.first_field_page(),
-                                  header.first_mask_page(), header.page_count};
+  const std::uint32_t starts[] = {0,
+                                  header.first_cap_page(),
+                                  header.first_field_page(),
+                                  header.first_attribute_page(),
+                                  header.first_mask_page(),
+                                  header.page_count};
+  constexpr unsigned kCaps = 1, kAttributes = 3;
   unsigned section = 0;
   while (page >= starts[section + 1]) ++section;
   octree::PageInfo info;
   info.page_bytes = header.page_bytes;
   info.first_page = starts[section];
   info.page_count = starts[section + 1] - starts[section];
-  info.tree_pages = header.first_field_page();
-  info.shape = section == 1 ? cap_shape(header.model) : block_shape(header.model);
+  info.tree_pages = section == kAttributes ? header.first_cap_page() : header.first_field_page();
+  info.shape = section == kCaps ? cap_shape(header.model) : block_shape(header.model);
   info.page_number = page;
   info.octcode = entry.octcode;
   info.ordinal = entry.ordinal;
@@ -68,6 +90,9 @@ Result<void> decode_frame(const storage::FileHeader& header, const storage::Page
   const octree::PageInfo info = page_info(header, entry, page);
   if (page >= header.first_mask_page()) return octree::decode_mask_page(raw, info, frame);
   if (page < header.first_field_page()) return octree::decode_page(raw, info, frame);
+  if (page >= header.first_attribute_page())
+    return octree::decode_attribute_page(raw, info, attribute_shape(header.model),
+                                         attribute_triangles(header, page), frame);
   return octree::decode_field_page(
       raw, info, {reinterpret_cast<octree::FieldPoint*>(frame.data()), field_points(header, page)});
 }

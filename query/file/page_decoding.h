@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include "octree/attributes/attribute_page.h"
 #include "octree/field/field_shape.h"
 #include "octree/page/frame.h"
 #include "octree/page/page_decoder.h"
@@ -22,6 +23,12 @@ octree::FieldShape field_shape(const storage::ModelRecord& model) noexcept;
 /// Returns the number of grid points in a field page.
 std::size_t field_points(const storage::FileHeader& header, std::uint32_t page) noexcept;
 
+/// Returns what a file's attribute pages have for each triangle.
+octree::AttributeShape attribute_shape(const storage::ModelRecord& model) noexcept;
+
+/// Returns the number of triangles in an attribute page.
+std::uint32_t attribute_triangles(const storage::FileHeader& header, std::uint32_t page) noexcept;
+
 /// Returns what decoding a page needs.
 octree::PageInfo page_info(const storage::FileHeader& header, const storage::PageEntry& entry,
                            std::uint32_t page) noexcept;
@@ -32,7 +39,8 @@ octree::PageInfo page_info(const storage::FileHeader& header, const storage::Pag
 /// page    page number, below header.page_count
 /// raw     raw bytes of the page; any bytes are allowed
 /// frame   header.page_bytes bytes, aligned to 64 bytes; undefined after an error
-/// errors  kDamaged: see octree/page/page_decoder.h and octree/field/field_page.h
+/// errors  kDamaged: see octree/page/page_decoder.h, octree/field/field_page.h and
+///         octree/attributes/attribute_page.h
 Result<void> decode_frame(const storage::FileHeader& header, const storage::PageEntry& entry,
                           std::uint32_t page, std::span<const std::byte> raw,
                           std::span<std::byte> frame) noexcept;

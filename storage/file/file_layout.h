@@ -13,7 +13,8 @@
 ///   0                      header          kHeaderBytes
 ///   kHeaderBytes           page table      page_count * sizeof(PageEntry)
 ///   ...                    pages           stored bytes from page 0 on, without gaps: distance
-///                                          pages, cap pages, field pages, mask pages
+///                                          pages, cap pages, field pages, attribute pages, mask
+///                                          pages
 ///   file_bytes - 760       header's copy   kHeaderBytes
 namespace planetree::storage {
 
@@ -21,7 +22,7 @@ static_assert(std::endian::native == std::endian::little,
               "planetree reads and writes its structs in place: little-endian machines only");
 
 inline constexpr std::uint8_t kMagic[8] = {0x89, 'P', 'T', 'R', 'E', 'E', 0x0d, 0x0a};
-inline constexpr std::uint16_t kFormatVersion = 13;
+inline constexpr std::uint16_t kFormatVersion = 14;
 inline constexpr std::size_t kHeaderBytes = 760;
 inline constexpr std::uint64_t kKnownIncompatibleFeatures = 0;
 inline constexpr std::uint32_t kMinPageBytes = 4096;
@@ -30,6 +31,8 @@ inline constexpr std::uint32_t kMaxPageBytes = 262144;
 /// kFieldPointShare.
 inline constexpr std::uint64_t kMaxFieldPoints = std::uint64_t{1} << 20;
 inline constexpr std::uint32_t kFieldPointShare = 8;
+/// Bytes of a page that its attributes do not use, so that a decoded page has room for its head.
+inline constexpr std::uint32_t kAttributeHeadBytes = 64;
 inline constexpr std::uint64_t kNoTriangle = ~std::uint64_t{0};
 
 enum class VertexKind : std::uint8_t { kFloat32 = 0, kFloat64 = 1 };
@@ -39,6 +42,17 @@ enum class SideRule : std::uint8_t {
   kSolid = 0,   ///< by the winding number
   kSurface = 1  ///< by the pseudo-normal of the nearest feature
 };
+
+/// Attributes of triangles, as bits of ModelRecord::attributes.
+inline constexpr std::uint8_t kAttributeLinks = 1;   ///< where the triangle is
+inline constexpr std::uint8_t kAttributeColors = 2;  ///< three colours of 4 bytes
+inline constexpr std::uint8_t kAttributeUvs = 4;     ///< three pairs of floats
+inline constexpr std::uint8_t kAttributeValues = 8;  ///< 8 bytes
+inline constexpr std::uint8_t kKnownAttributes =
+    kAttributeLinks | kAttributeColors | kAttributeUvs | kAttributeValues;
+
+/// Type of the values of kAttributeValues.
+enum class ValueKind : std::uint8_t { kUnsigned = 0, kSigned = 1, kReal = 2 };
 
 /// An edge along which more triangles run in one direction than in the other.
 struct UnbalancedEdge {
@@ -103,12 +117,16 @@ struct ModelRecord {
   SideRule side_rule;           ///< how queries decide sides by default
   std::uint8_t side_is_chosen;  ///< 1: the builder was told side_rule; 0: it follows from openness
   std::uint8_t without_sides;   ///< 1: the file has no side layer, that is no caps and no mask
-  std::uint8_t side_reserved[5];   ///< zero
-  double field_lower[3];           ///< coarse field: first grid point; model frame
-  double field_step;               ///< distance from grid point to grid point; model frame
-  double field_quantum;            ///< unit of stored surface points; model frame
-  std::uint32_t field_size[3];     ///< grid points along each axis; 0: there is no field
-  std::uint32_t field_page_count;  ///< field pages, between cap pages and mask pages
+  std::uint8_t side_reserved[5];       ///< zero
+  double field_lower[3];               ///< coarse field: first grid point; model frame
+  double field_step;                   ///< distance from grid point to grid point; model frame
+  double field_quantum;                ///< unit of stored surface points; model frame
+  std::uint32_t field_size[3];         ///< grid points along each axis; 0: there is no field
+  std::uint32_t field_page_count;      ///< field pages, between cap pages and attribute pages
+  std::uint32_t attribute_page_count;  ///< attribute pages, between field pages and mask pages
+  std::uint8_t attributes;             ///< kAttributeLinks and others; 0: no attribute pages
+  ValueKind value_kind;                ///< 0 without kAttributeValues
+  std::uint8_t attribute_reserved[2];  ///< zero
 
   [[nodiscard]] bool has_region() const noexcept { return input_triangles > 0; }
   [[nodiscard]] bool has_side_layer() const noexcept { return without_sides == 0; }
@@ -116,8 +134,21 @@ struct ModelRecord {
   [[nodiscard]] std::uint64_t usable_triangles() const noexcept {
     return has_region() ? input_triangles : triangle_count;
   }
+  /// Number of triangle indices of the whole input, those of skipped records included; 2^64 - 1 if
+  /// there are more.
+  [[nodiscard]] std::uint64_t index_count() const noexcept {
+    const std::uint64_t usable = usable_triangles();
+    return skipped_count > kNoTriangle - usable ? kNoTriangle : usable + skipped_count;
+  }
+  /// Bytes of the attributes of one triangle.
+  [[nodiscard]] std::uint32_t attribute_bytes() const noexcept {
+    return ((attributes & kAttributeLinks) != 0 ? 4U : 0U) +
+           ((attributes & kAttributeColors) != 0 ? 12U : 0U) +
+           ((attributes & kAttributeUvs) != 0 ? 24U : 0U) +
+           ((attributes & kAttributeValues) != 0 ? 8U : 0U);
+  }
 };
-static_assert(sizeof(ModelRecord) == 632);
+static_assert(sizeof(ModelRecord) == 640);
 
 struct FileHeader {
   std::uint8_t magic[8];                ///< kMagic
@@ -133,7 +164,7 @@ struct FileHeader {
   std::uint32_t max_raw_bytes;          ///< largest PageEntry::raw_bytes
   std::uint64_t max_stored_bytes;       ///< largest PageEntry::stored_bytes
   ModelRecord model;
-  std::uint8_t reserved[40];  ///< zero
+  std::uint8_t reserved[32];  ///< zero
   std::uint64_t header_hash;  ///< XXH3-64 of all bytes before this field
 
   /// Number of the first mask page; page_count if there is none. All pages from it on are mask
@@ -141,9 +172,14 @@ struct FileHeader {
   [[nodiscard]] std::uint32_t first_mask_page() const noexcept {
     return page_count - (model.mask_page_count < page_count ? model.mask_page_count : page_count);
   }
-  /// Number of the first field page; first_mask_page() if there is none.
-  [[nodiscard]] std::uint32_t first_field_page() const noexcept {
+  /// Number of the first attribute page; first_mask_page() if there is none.
+  [[nodiscard]] std::uint32_t first_attribute_page() const noexcept {
     const std::uint32_t end = first_mask_page();
+    return end - (model.attribute_page_count < end ? model.attribute_page_count : end);
+  }
+  /// Number of the first field page; first_attribute_page() if there is none.
+  [[nodiscard]] std::uint32_t first_field_page() const noexcept {
+    const std::uint32_t end = first_attribute_page();
     return end - (model.field_page_count < end ? model.field_page_count : end);
   }
   /// Number of the first cap page; first_field_page() if there is none. All pages before it are
@@ -151,6 +187,10 @@ struct FileHeader {
   [[nodiscard]] std::uint32_t first_cap_page() const noexcept {
     const std::uint32_t end = first_field_page();
     return end - (model.cap_page_count < end ? model.cap_page_count : end);
+  }
+  /// Number of triangles in an attribute page; the last may have fewer. The file has attributes.
+  [[nodiscard]] std::uint32_t triangles_per_attribute_page() const noexcept {
+    return (page_bytes - kAttributeHeadBytes) / model.attribute_bytes();
   }
 };
 static_assert(sizeof(FileHeader) == kHeaderBytes);
@@ -161,7 +201,7 @@ enum class Codec : std::uint32_t { kStored = 0, kLz4 = 1 };
 
 /// Entry of one page in the page table. The page's key is the minimum octcode of its subtrees and
 /// an ordinal among the pages with that octcode. Distance pages are numbered first, then cap pages,
-/// field pages and mask pages, each kind in the order of keys.
+/// field pages, attribute pages and mask pages, each kind in the order of keys.
 struct PageEntry {
   std::uint64_t offset;        ///< offset of the stored bytes in the file
   std::uint64_t check;         ///< XXH3-64 of the stored bytes seeded with the page number,

@@ -96,7 +96,8 @@ Result<void> check_tiling(const FileHeader& header, std::span<const PageEntry> e
     }
     if (const Result<void> checked = check_entry(header, page, entry); !checked) return checked;
     if (page > 0 && page != header.first_cap_page() && page != header.first_field_page() &&
-        page != header.first_mask_page() && !key_less(entries[page - 1], entry)) {
+        page != header.first_attribute_page() && page != header.first_mask_page() &&
+        !key_less(entries[page - 1], entry)) {
       return bad_entry(page, "the page's key does not follow the one before");
     }
     offset += entry.stored_bytes;
@@ -125,6 +126,13 @@ std::uint64_t field_pages(const FileHeader& header) noexcept {
   return (points + in_page - 1) / in_page;
 }
 
+// Number of pages that the attributes take; more than any file has if the indices are too many.
+std::uint64_t attribute_pages(const FileHeader& header) noexcept {
+  if (header.model.attributes == 0) return 0;
+  const std::uint64_t in_page = header.triangles_per_attribute_page();
+  return (header.model.index_count() - 1) / in_page + 1;
+}
+
 }  // namespace
 
 Result<void> check_header(const FileHeader& header, std::uint64_t actual_bytes) noexcept {
@@ -144,8 +152,8 @@ Result<void> check_header(const FileHeader& header, std::uint64_t actual_bytes) 
   if (!all_zero(header.reserved)) {
     return bad_header(offsetof(FileHeader, reserved), "the header's reserved bytes are not zero");
   }
-  if (std::uint64_t{header.model.mask_page_count} + header.model.field_page_count +
-          header.model.cap_page_count >=
+  if (std::uint64_t{header.model.mask_page_count} + header.model.attribute_page_count +
+          header.model.field_page_count + header.model.cap_page_count >=
       header.page_count) {
     return bad_model(offsetof(ModelRecord, mask_page_count), "there is no page of the tree");
   }
@@ -153,7 +161,12 @@ Result<void> check_header(const FileHeader& header, std::uint64_t actual_bytes) 
     return bad_model(offsetof(ModelRecord, field_page_count),
                      "the field has not as many pages as its points take");
   }
-  return check_model(header.model);
+  if (const Result<void> checked = check_model(header.model); !checked) return checked;
+  if (attribute_pages(header) != header.model.attribute_page_count) {
+    return bad_model(offsetof(ModelRecord, attribute_page_count),
+                     "there are not as many attribute pages as the triangles take");
+  }
+  return {};
 }
 
 Result<void> check_table(const FileHeader& header, std::span<const PageEntry> entries) noexcept {

@@ -199,6 +199,24 @@ Result<void> check_field(const ModelRecord& model) noexcept {
   return {};
 }
 
+// Where a triangle is belongs to every attribute.
+Result<void> check_attributes(const ModelRecord& model) noexcept {
+  const std::uint8_t attributes = model.attributes;
+  if ((attributes & ~kKnownAttributes) != 0 ||
+      (attributes != 0 && (attributes & kAttributeLinks) == 0)) {
+    return bad_model(offsetof(ModelRecord, attributes), "the kinds of attributes are unknown");
+  }
+  if (model.value_kind > ValueKind::kReal ||
+      ((attributes & kAttributeValues) == 0 && model.value_kind != ValueKind::kUnsigned)) {
+    return bad_model(offsetof(ModelRecord, value_kind), "the kind of values is unknown");
+  }
+  if (!all_zero(model.attribute_reserved)) {
+    return bad_model(offsetof(ModelRecord, attribute_reserved),
+                     "the reserved bytes of the attributes are not zero");
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<void> check_model(const ModelRecord& model) noexcept {
@@ -238,6 +256,7 @@ Result<void> check_model(const ModelRecord& model) noexcept {
   if (const Result<void> checked = check_region(model); !checked) return checked;
   if (const Result<void> checked = check_unbalanced_edges(model); !checked) return checked;
   if (const Result<void> checked = check_field(model); !checked) return checked;
+  if (const Result<void> checked = check_attributes(model); !checked) return checked;
   return check_caps(model);
 }
 

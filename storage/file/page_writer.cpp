@@ -60,7 +60,7 @@ Result<void> PageWriter::check_next(std::uint64_t octcode, std::uint32_t ordinal
   const std::size_t page = entries_.size();
   if (page == page_count_) return bad_argument(page, "more pages than the writer was created for");
   if (!entries_.empty() && page != first_cap_page_ && page != first_field_page_ &&
-      page != first_mask_page_) {
+      page != first_attribute_page_ && page != first_mask_page_) {
     const PageEntry& last = entries_.back();
     if (std::pair(last.octcode, last.ordinal) >= std::pair(octcode, ordinal)) {
       return bad_argument(page, "the page's key does not follow the one before");
@@ -96,9 +96,11 @@ Result<FileHeader> PageWriter::finish(const ModelRecord& model, std::uint32_t pa
     return fail(bad_argument(entries_.size(), "fewer pages than the writer was created for"));
   }
   const std::uint32_t first_mask_page = first_mask_page_.value_or(page_count_);
-  const std::uint32_t first_field_page = first_field_page_.value_or(first_mask_page);
+  const std::uint32_t first_attribute_page = first_attribute_page_.value_or(first_mask_page);
+  const std::uint32_t first_field_page = first_field_page_.value_or(first_attribute_page);
   if (model.mask_page_count != page_count_ - first_mask_page ||
-      model.field_page_count != first_mask_page - first_field_page ||
+      model.attribute_page_count != first_mask_page - first_attribute_page ||
+      model.field_page_count != first_attribute_page - first_field_page ||
       model.cap_page_count != first_field_page - first_cap_page_.value_or(first_field_page)) {
     return fail(
         bad_argument(Error::kNowhere, "a section does not have as many pages as the model states"));

@@ -45,10 +45,13 @@ class PageWriter {
   Result<void> append(std::uint64_t octcode, std::uint32_t ordinal, std::uint32_t raw_bytes,
                       const StoredPage& stored);
 
-  /// Marks the pages appended from now on as cap pages, field pages or mask pages, with an order of
-  /// keys of their own.
+  /// Marks the pages appended from now on as cap pages, field pages, attribute pages or mask pages,
+  /// with an order of keys of their own. Call those that are called in this order.
   void begin_caps() noexcept { first_cap_page_ = static_cast<std::uint32_t>(entries_.size()); }
   void begin_field() noexcept { first_field_page_ = static_cast<std::uint32_t>(entries_.size()); }
+  void begin_attributes() noexcept {
+    first_attribute_page_ = static_cast<std::uint32_t>(entries_.size());
+  }
   void begin_mask() noexcept { first_mask_page_ = static_cast<std::uint32_t>(entries_.size()); }
 
   /// Completes the file, after page_count pages, and commits it. Call it once.
@@ -74,7 +77,8 @@ class PageWriter {
   // PageEntry::check is the page hash alone until the content id is known.
   std::vector<PageEntry> entries_;
   std::uint32_t page_count_ = 0;
-  std::optional<std::uint32_t> first_cap_page_, first_field_page_, first_mask_page_;
+  std::optional<std::uint32_t> first_cap_page_, first_field_page_, first_attribute_page_,
+      first_mask_page_;
   std::vector<std::byte> buffer_;
   std::uint64_t buffer_offset_ = 0;  // file offset of the buffer's first byte
   std::optional<Error> failure_;     // first error; also set by a successful finish()

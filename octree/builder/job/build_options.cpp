@@ -17,7 +17,13 @@ Result<void> BuildOptions::check() const {
                       "a page of %u bytes; use a power of two from 4K to 256K", page_bytes);
   if ((layers & ~kAllLayers) != 0)
     return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
-                      "layers are 0x%x; combine kSideLayer and kFieldLayer", layers);
+                      "layers are 0x%x; combine kSideLayer, kFieldLayer and kAttributeLayer",
+                      layers);
+  if ((keep & ~kAllAttributes) != 0)
+    return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
+                      "attributes are 0x%x; combine kKeepTriangles, kKeepColor, kKeepUv and "
+                      "kKeepValue",
+                      keep);
   return box ? box->check() : Result<void>();
 }
 

@@ -3,8 +3,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "octree/builder/job/region_box.h"
+#include "planetree/attributes.h"
 #include "planetree/error.h"
 #include "planetree/layers.h"
 #include "storage/file/file_layout.h"
@@ -23,7 +25,10 @@ struct BuildOptions {
   bool replace = false;                  ///< an existing output may be replaced
   /// How queries decide sides; empty: as the openness of the surface suggests.
   std::optional<storage::SideRule> side;
-  std::uint32_t layers = kAllLayers;  ///< layers of the file; that of distances is always built
+  /// Attributes of triangles to keep: kKeepTriangles and others, combined with `|`.
+  std::uint32_t keep = 0;
+  std::string value_property = "value";  ///< see MeshOptions::value_property
+  std::uint32_t layers = kAllLayers;     ///< layers of the file; that of distances is always built
   /// Builds only the triangles that touch this box. Points are inside or outside of the whole
   /// input.
   std::optional<RegionBox> box;
@@ -32,8 +37,11 @@ struct BuildOptions {
   bool resume = false;
 
   bool has_side_layer() const { return (layers & kSideLayer) != 0; }
+  /// What the file keeps: `keep`, with the links that all attributes need.
+  std::uint32_t kept_attributes() const { return keep == 0 ? 0 : keep | kKeepTriangles; }
   bool has_field_layer() const { return (layers & kFieldLayer) != 0; }
-  /// errors  kBadArgument: page_bytes is none of a page; an unknown layer; the box is none, see
+  /// errors  kBadArgument: page_bytes is none of a page; an unknown layer or attribute; the box is
+  /// none, see
   ///         RegionBox::check()
   Result<void> check() const;
   /// Directory of the output.

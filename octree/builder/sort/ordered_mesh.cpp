@@ -1,5 +1,6 @@
 #include "octree/builder/sort/ordered_mesh.h"
 
+#include <cassert>
 #include <limits>
 #include <utility>
 
@@ -7,15 +8,36 @@
 #include "octree/geometry/strict_math.h"
 
 namespace planetree::octree {
+namespace {
+
+Result<MeshSummary> read(const BuildInput& input, const BuildOptions& options, MeshScratch& scratch,
+                         TriangleSpool& spool, storage::SpillFile& kept,
+                         SpooledAttributes& attributes) {
+  const MeshOptions how{.float64 = options.float64,
+                        .keep = options.keep & ~kKeepTriangles,
+                        .value_property = options.value_property};
+  if (how.keep == 0) return read_mesh(input, spool, scratch, how);
+  AttributeSpool both(AttributeShape{how.keep}, spool, kept);
+  Result<MeshSummary> summary = read_mesh(input, both, scratch, how);
+  if (!summary) return summary;
+  auto spooled = both.finish();
+  if (!spooled) return spooled.error();
+  assert(spooled->count == summary->triangle_indices);
+  attributes = *std::move(spooled);
+  return summary;
+}
+
+}  // namespace
 
 Result<OrderedMesh> read_unordered(const BuildInput& input, const BuildOptions& options,
                                    MeshScratch& scratch, BuildProgress& progress,
-                                   TriangleSpool& spool) {
+                                   TriangleSpool& spool, storage::SpillFile& kept) {
   const auto report = [](void* context, std::uint64_t done, std::uint64_t total) {
     return static_cast<BuildProgress*>(context)->progress(BuildPhase::kReading, done, total);
   };
   spool.report_progress(report, &progress);
-  const Result<MeshSummary> summary = read_mesh(input, spool, scratch, {options.float64});
+  SpooledAttributes attributes;
+  const Result<MeshSummary> summary = read(input, options, scratch, spool, kept, attributes);
   if (!summary) return summary.error();
   auto frame = spool.finish();
   if (!frame) return frame.error();
@@ -28,7 +50,8 @@ Result<OrderedMesh> read_unordered(const BuildInput& input, const BuildOptions& 
   frame->fanned_count = summary->odd_polygons.fanned;
   frame->first_fanned_text = summary->odd_polygons.first_fanned;
   const bool wide_ids = summary->triangle_indices > std::numeric_limits<std::uint32_t>::max();
-  return OrderedMesh{*std::move(frame), summary->vertex_records, wide_ids, {}, summary->notes};
+  return OrderedMesh{*std::move(frame), summary->vertex_records, wide_ids,           {},
+                     summary->notes,    std::move(attributes),   summary->value_kind};
 }
 
 }  // namespace planetree::octree

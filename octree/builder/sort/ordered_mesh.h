@@ -8,6 +8,7 @@
 #include "octree/builder/job/build_progress.h"
 #include "octree/builder/job/model_frame.h"
 #include "octree/builder/mesh/stream/mesh_scratch.h"
+#include "octree/builder/sort/attribute_spool.h"
 #include "octree/builder/sort/triangle_runs.h"
 #include "octree/builder/sort/triangle_spool.h"
 #include "planetree/build.h"
@@ -19,20 +20,23 @@ namespace planetree::octree {
 struct OrderedMesh {
   ModelFrame frame;
   std::uint64_t vertex_records = 0;
-  bool wide_ids = false;                   ///< some index takes more than 32 bits
-  std::vector<TriangleRuns::Extent> runs;  ///< the runs, if none of them is in memory
-  std::vector<std::string> notes;          ///< as MeshSummary::notes
+  bool wide_ids = false;                        ///< some index takes more than 32 bits
+  std::vector<TriangleRuns::Extent> runs;       ///< the runs, if none of them is in memory
+  std::vector<std::string> notes;               ///< as MeshSummary::notes
+  SpooledAttributes attributes;                 ///< of all indices, if any are kept beside links
+  ValueKind value_kind = ValueKind::kUnsigned;  ///< as MeshSummary::value_kind
 };
 
 /// Reads a mesh without sorting it.
 ///
 /// scratch  as for read_mesh().
 /// spool    receives the triangles.
+/// kept     receives the attributes that options.keep names.
 /// return   everything but the runs.
 /// errors   those of read_mesh() and TriangleSpool; kBadInput for a bad record under
 ///          options.strict.
 Result<OrderedMesh> read_unordered(const BuildInput& input, const BuildOptions& options,
                                    MeshScratch& scratch, BuildProgress& progress,
-                                   TriangleSpool& spool);
+                                   TriangleSpool& spool, storage::SpillFile& kept);
 
 }  // namespace planetree::octree

@@ -198,10 +198,27 @@ TEST_F(ResumedBuild, RestartsIfAFileBesideTheInputChanged) {
             "the checkpoint cannot be resumed: the input has changed; building from the start");
 }
 
+TEST_F(ResumedBuild, NamesAMissingFileBesideTheInput) {
+  GltfWriter scene;
+  scene.mesh({scene.primitive(scene.positions({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}))});
+  std::ofstream(mesh_, std::ios::binary) << scene.beside("model.bin");
+  const auto report = build();
+  ASSERT_FALSE(report);
+  EXPECT_EQ(report.error().code, ErrorCode::kNotFound);
+  EXPECT_NE(std::string(report.error().text).find("model.bin"), std::string::npos)
+      << report.error().text;
+}
+
 TEST_F(ResumedBuild, RestartsIfTheOptionsChanged) {
   write(sphere(2));
   stop_in(BuildPhase::kBuildingMask, 4);
   options_.page_bytes = 8192;
+  expect_completed(whole());
+  EXPECT_EQ(recorder_.start,
+            "the checkpoint cannot be resumed: the options have changed; building from the start");
+  std::filesystem::remove(output_);
+  stop_in(BuildPhase::kBuildingMask, 4);
+  options_.keep = kKeepTriangles;
   expect_completed(whole());
   EXPECT_EQ(recorder_.start,
             "the checkpoint cannot be resumed: the options have changed; building from the start");

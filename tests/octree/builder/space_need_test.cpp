@@ -220,5 +220,19 @@ TEST(SpaceNeed, PassesWhereFreeSpaceIsUnknown) {
   EXPECT_TRUE((SpaceNeed{~std::uint64_t{0}, ~std::uint64_t{0}}).check(".", ".", calls, directory));
 }
 
+TEST(SpaceNeed, CountsAttributes) {
+  MeshSize size{1'000'000, 500'000, false};
+  const BuildMemory memory = *BuildMemory::share(std::uint64_t{8} << 30, 1);
+  const SpaceNeed plain = SpaceNeed::before_reading(size, memory);
+  size.attributes = kKeepTriangles;
+  const SpaceNeed links = SpaceNeed::before_reading(size, memory);
+  EXPECT_EQ(links.output_bytes - plain.output_bytes, 4 * size.triangles);
+  EXPECT_EQ(links.temporary_bytes - plain.temporary_bytes, 8 * size.triangles);
+  size.attributes = kAllAttributes;
+  const SpaceNeed all = SpaceNeed::before_reading(size, memory);
+  EXPECT_EQ(all.output_bytes - plain.output_bytes, 48 * size.triangles);
+  EXPECT_EQ(all.temporary_bytes - plain.temporary_bytes, (44 + 8) * size.triangles);
+}
+
 }  // namespace
 }  // namespace planetree::octree
