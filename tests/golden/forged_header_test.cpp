@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -56,6 +57,26 @@ TEST(ForgedHeader, MayNotStateMoreRecordsThanItsPagesHold) {
                                       {~0ull, 1}})
     EXPECT_NE(open_with_counts(nodes, blocks).find("more nodes and blocks"), std::string::npos)
         << nodes << ' ' << blocks;
+}
+
+TEST(ForgedHeader, MayNotStateAttributesThatTheFileDoesNotHave) {
+  using storage::ModelRecord;
+  const std::function<void(ModelRecord&)> changes[] = {
+      [](ModelRecord& model) { model.attributes = 1; },
+      [](ModelRecord& model) { model.attributes = 2; },
+      [](ModelRecord& model) { model.attributes = 16; },
+      [](ModelRecord& model) { model.attribute_page_count = 1; },
+      [](ModelRecord& model) {
+        model.mask_page_count = 0;
+        model.mask_cell_count = 0;
+        model.attribute_page_count = 1;
+      },
+      [](ModelRecord& model) { model.value_kind = storage::ValueKind::kReal; },
+      [](ModelRecord& model) { model.attribute_reserved[1] = 1; }};
+  for (std::size_t i = 0; i < std::size(changes); ++i) {
+    EXPECT_NE(open_with([&](storage::FileHeader& header) { changes[i](header.model); }), "opened")
+        << i;
+  }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "octree/attributes/attribute_page.h"
 #include "octree/field/field_page.h"
 #include "octree/page/mask_streams.h"
 #include "octree/page/page_streams.h"
@@ -118,6 +119,10 @@ FormatStruct model_fields() {
       .PLANETREE_FIELD(ModelRecord, field_quantum)
       .PLANETREE_FIELD(ModelRecord, field_size)
       .PLANETREE_FIELD(ModelRecord, field_page_count)
+      .PLANETREE_FIELD(ModelRecord, attribute_page_count)
+      .PLANETREE_FIELD(ModelRecord, attributes)
+      .PLANETREE_FIELD(ModelRecord, value_kind)
+      .PLANETREE_FIELD(ModelRecord, attribute_reserved)
       .take();
 }
 
@@ -195,14 +200,27 @@ FormatStruct field_page_head_fields() {
       .take();
 }
 
+FormatStruct attribute_page_head_fields() {
+  using octree::AttributePageHead;
+  return FieldList<AttributePageHead>("Attribute page")
+      .PLANETREE_FIELD(AttributePageHead, page_number)
+      .PLANETREE_FIELD(AttributePageHead, ordinal)
+      .PLANETREE_FIELD(AttributePageHead, octcode)
+      .PLANETREE_FIELD(AttributePageHead, triangle_count)
+      .PLANETREE_FIELD(AttributePageHead, reserved)
+      .take();
+}
+
 #undef PLANETREE_FIELD
 
 }  // namespace
 
 const std::vector<FormatStruct>& format_structs() {
   static const std::vector<FormatStruct> all = {
-      header_fields(),    model_fields(),          unbalanced_edge_fields(), entry_fields(),
-      page_head_fields(), mask_page_head_fields(), field_page_head_fields()};
+      header_fields(),          model_fields(),
+      unbalanced_edge_fields(), entry_fields(),
+      page_head_fields(),       mask_page_head_fields(),
+      field_page_head_fields(), attribute_page_head_fields()};
   return all;
 }
 

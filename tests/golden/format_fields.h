@@ -24,7 +24,7 @@ struct FormatStruct {
   std::vector<FormatField> fields;
 };
 
-/// Fields of storage::FileHeader, ModelRecord, PageEntry and octree::PageHead.
+/// Fields of the header, the model record, unbalanced edges, page entries, and the heads of pages.
 const std::vector<FormatStruct>& format_structs();
 
 /// The struct with the given heading.

@@ -75,6 +75,20 @@ const Sample& region_sample() {
   return sample;
 }
 
+const Sample& painted_sample() {
+  static const Sample sample = {"painted.ply", "painted.ptree", 4096, std::nullopt, kAllAttributes};
+  return sample;
+}
+
+const std::vector<Sample>& all_samples() {
+  static const std::vector<Sample> all = [] {
+    std::vector<Sample> listed = samples();
+    listed.insert(listed.end(), {region_sample(), painted_sample()});
+    return listed;
+  }();
+  return all;
+}
+
 std::vector<std::byte> read_file(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw std::runtime_error("cannot read " + path.string());
@@ -85,17 +99,23 @@ std::vector<std::byte> read_file(const std::filesystem::path& path) {
 
 std::vector<std::byte> build_bytes(const std::filesystem::path& mesh, std::uint32_t page_bytes,
                                    unsigned threads, const std::optional<octree::RegionBox>& box,
-                                   std::uint32_t layers) {
+                                   std::uint32_t layers, std::uint32_t keep) {
   const storage::TemporaryDirectory folder;
   octree::BuildOptions options;
   options.page_bytes = page_bytes;
   options.threads = threads;
   options.box = box;
   options.layers = layers;
+  options.keep = keep;
   Silence silence;
   const auto report = octree::build_tree(mesh, folder / "built.ptree", options, silence);
   if (!report) throw std::runtime_error(report.error().text);
   return read_file(folder / "built.ptree");
+}
+
+std::vector<std::byte> build_bytes(const Sample& sample, unsigned threads) {
+  return build_bytes(sample.mesh_path(), sample.page_bytes, threads, sample.box, kAllLayers,
+                     sample.keep);
 }
 
 std::vector<std::byte> build_with_hole(const Sample& sample, std::uint64_t count) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "octree/builder/job/region_box.h"
+#include "planetree/attributes.h"
 #include "planetree/layers.h"
 #include "planetree/types.h"
 
@@ -22,6 +23,7 @@ struct Sample {
   const char* ptree;  ///< file name
   std::uint32_t page_bytes;
   std::optional<octree::RegionBox> box = std::nullopt;  ///< region of the .ptree file, if any
+  std::uint32_t keep = 0;                               ///< attributes of the .ptree file
 
   std::filesystem::path mesh_path() const;
   std::filesystem::path ptree_path() const;
@@ -40,6 +42,10 @@ const Sample& sphere_sample();
 /// The sample of a region, which samples() does not contain, and the sample of its whole mesh.
 const Sample& region_sample();
 const Sample& boxes_sample();
+/// The sample with all attributes, which samples() does not contain. It has two attribute pages.
+const Sample& painted_sample();
+/// samples(), region_sample() and painted_sample().
+const std::vector<Sample>& all_samples();
 
 std::vector<std::byte> read_file(const std::filesystem::path& path);
 
@@ -47,7 +53,9 @@ std::vector<std::byte> read_file(const std::filesystem::path& path);
 std::vector<std::byte> build_bytes(const std::filesystem::path& mesh, std::uint32_t page_bytes,
                                    unsigned threads,
                                    const std::optional<octree::RegionBox>& box = std::nullopt,
-                                   std::uint32_t layers = kAllLayers);
+                                   std::uint32_t layers = kAllLayers, std::uint32_t keep = 0);
+/// The bytes of a sample's .ptree file, built again.
+std::vector<std::byte> build_bytes(const Sample& sample, unsigned threads);
 
 /// The bytes of the file built from a sample's mesh without its first `count` triangles, and so
 /// with a hole.

@@ -19,7 +19,7 @@ std::uint16_t step_of(std::uint16_t code) {
 }  // namespace
 
 SpecField::SpecField(const SpecFile& file) : header_(file.header()) {
-  for (std::uint32_t number = header_.e(); number < header_.d(); ++number) read_page(file, number);
+  for (std::uint32_t number = header_.e(); number < header_.a(); ++number) read_page(file, number);
   require(stored_.size() == header_.field_points(), "points of the field");
 }
 

@@ -3,6 +3,7 @@
 #include <lz4.h>
 #include <xxhash.h>
 
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -81,12 +82,34 @@ void read_field(Bytes model, SpecHeader& read) {
   require(read.field_pages == (read.field_points() + in_page - 1) / in_page, "pages of the field");
 }
 
+void read_attributes(Bytes model, SpecHeader& read) {
+  read.attribute_pages = get<std::uint32_t>(model, 632);
+  read.attributes = get<std::uint8_t>(model, 636);
+  read.value_kind = get<std::uint8_t>(model, 637);
+  require(read.attributes == 0 || read.has_attribute(0), "attributes without links");
+  require(read.attributes < 16, "an unknown attribute");
+  require(read.value_kind <= (read.has_attribute(3) ? 2u : 0u), "kind of values");
+  require(get<std::uint16_t>(model, 638) == 0, "reserved bytes of attributes");
+  std::uint64_t pages = 0;
+  if (read.attributes != 0) {
+    const std::uint64_t in_page = read.attribute_page_triangles();
+    pages = read.indices() / in_page + (read.indices() % in_page > 0 ? 1 : 0);
+  }
+  require(read.attribute_pages == pages, "pages of attributes");
+}
+
 SpecHeader read_header(Bytes header) {
-  const Bytes model = header.subspan(80, 632);
+  const Bytes model = header.subspan(80, 640);
   SpecHeader read{};
   read.page_bytes = get<std::uint32_t>(header, 12);
+  require(
+      std::has_single_bit(read.page_bytes) && read.page_bytes >= 4096 && read.page_bytes <= 262144,
+      "page size");
+  for (std::size_t at = 720; at < 752; ++at)
+    require(get<std::uint8_t>(header, at) == 0, "reserved bytes of the header");
   read.page_count = get<std::uint32_t>(header, 64);
   read.triangle_count = get<std::uint64_t>(model, 0);
+  read.skipped_count = get<std::uint64_t>(model, 8);
   read.node_count = get<std::uint64_t>(model, 32);
   read.block_count = get<std::uint64_t>(model, 40);
   read.box_lower = get<SpecPoint>(model, 48);
@@ -111,9 +134,12 @@ SpecHeader read_header(Bytes header) {
   read.mask_levels = get<std::uint8_t>(model, 380);
   read_caps(model, read);
   read_field(model, read);
-  require(std::uint64_t{read.mask_pages} + read.field_pages + read.cap_pages < read.page_count,
-          "no distance page");
   read_region(model, read);
+  read_attributes(model, read);
+  require(
+      std::uint64_t{read.cap_pages} + read.field_pages + read.attribute_pages + read.mask_pages <
+          read.page_count,
+      "no distance page");
   return read;
 }
 
@@ -126,9 +152,16 @@ bool SpecHeader::has_walls() const {
   return found;
 }
 
+std::uint64_t SpecHeader::attribute_page_triangles() const {
+  constexpr std::uint64_t kBytes[] = {4, 12, 24, 8};
+  std::uint64_t bytes = 0;
+  for (unsigned bit = 0; bit < 4; ++bit) bytes += has_attribute(bit) ? kBytes[bit] : 0;
+  return (page_bytes - 64) / bytes;
+}
+
 SpecFile::SpecFile(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {
   const Bytes header = choose_header();
-  require(get<std::uint16_t>(header, 8) == 13, "another version");
+  require(get<std::uint16_t>(header, 8) == 14, "another version");
   require(get<std::uint16_t>(header, 10) == 760, "header length");
   require(get<std::uint64_t>(header, 16) == 0, "unknown features");
   require(get<std::uint64_t>(header, 32) == bytes_.size(), "file length");
@@ -150,19 +183,29 @@ void SpecFile::check_table(Bytes header) const {
   require(hash64(table, 0) == get<std::uint64_t>(header, 56), "table hash");
   std::vector<std::uint64_t> page_hashes;
   std::uint64_t end = 760 + table.size();
-  std::pair<std::uint64_t, std::uint32_t> last_key{};
   for (std::uint32_t k = 0; k < header_.page_count; ++k) {
     page_hashes.push_back(get<std::uint64_t>(entry(k), 8) ^ content_id_);
     require(get<std::uint64_t>(entry(k), 0) == end, "pages do not tile the file");
     end += get<std::uint32_t>(entry(k), 32);
-    const std::pair key(get<std::uint64_t>(entry(k), 16), get<std::uint32_t>(entry(k), 24));
-    require(k == 0 || k == header_.c() || k == header_.e() || k == header_.d() || last_key < key,
-            "order of keys");
-    last_key = key;
   }
   require(end == bytes_.size() - 760, "pages do not tile the file");
   const XXH128_hash_t id = XXH3_128bits(page_hashes.data(), 8 * page_hashes.size());
   require(id.low64 == content_id_ && id.high64 == get<std::uint64_t>(header, 48), "content id");
+  check_keys();
+}
+
+// "Page keys": keys ascend within each kind of page.
+void SpecFile::check_keys() const {
+  using Key = std::pair<std::uint64_t, std::uint32_t>;
+  const std::uint32_t c = header_.c(), e = header_.e(), a = header_.a(), d = header_.d();
+  Key last_key{};
+  for (std::uint32_t k = 0; k < header_.page_count; ++k) {
+    const Key key(get<std::uint64_t>(entry(k), 16), get<std::uint32_t>(entry(k), 24));
+    require(k == 0 || k == c || k == e || k == a || k == d || last_key < key, "order of keys");
+    if (k >= e && k < d)
+      require(key == Key(0, k - (k < a ? e : a)), "key of a field page or an attribute page");
+    last_key = key;
+  }
 }
 
 Bytes SpecFile::entry(std::uint32_t number) const {

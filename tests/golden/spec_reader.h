@@ -19,7 +19,7 @@ using SpecPoint = std::array<double, 3>;
 /// The fields of "Header" and "Model record" that the reader uses.
 struct SpecHeader {
   std::uint32_t page_bytes, page_count;
-  std::uint64_t triangle_count, node_count, block_count;
+  std::uint64_t triangle_count, skipped_count, node_count, block_count;
   SpecPoint box_lower, box_upper, core_lower, core_upper, centre, sample;
   std::uint64_t stray_count;
   double stray_edge;
@@ -44,17 +44,28 @@ struct SpecHeader {
   SpecPoint field_lower;
   double field_step, field_quantum;
   std::array<std::uint32_t, 3> field_size;
-  std::uint32_t field_pages;
+  std::uint32_t field_pages, attribute_pages;
+  unsigned attributes, value_kind;
   bool has_walls() const;
   /// Whether the surface is not watertight.
   bool open() const { return cap_count > 0; }
   std::uint64_t field_points() const {
     return std::uint64_t{field_size[0]} * field_size[1] * field_size[2];
   }
+  /// Number of indices of the input, those of skipped records included.
+  std::uint64_t indices() const {
+    return (input_triangles == 0 ? triangle_count : input_triangles) + skipped_count;
+  }
+  /// Whether the file has the attribute of this bit.
+  bool has_attribute(unsigned bit) const { return (attributes >> bit & 1) != 0; }
+  /// Triangles of each attribute page but the last. The file has attributes.
+  std::uint64_t attribute_page_triangles() const;
   /// Number of the first cap page.
   std::uint32_t c() const { return e() - cap_pages; }
   /// Number of the first field page.
-  std::uint32_t e() const { return d() - field_pages; }
+  std::uint32_t e() const { return a() - field_pages; }
+  /// Number of the first attribute page.
+  std::uint32_t a() const { return d() - attribute_pages; }
   /// Number of the first mask page.
   std::uint32_t d() const { return page_count - mask_pages; }
 };
@@ -124,6 +135,7 @@ class SpecFile {
  private:
   std::span<const std::byte> choose_header() const;
   void check_table(std::span<const std::byte> header) const;
+  void check_keys() const;
   std::span<const std::byte> entry(std::uint32_t number) const;
 
   std::vector<std::byte> bytes_;

@@ -10,6 +10,7 @@
 
 #include "octree/geometry/octcode.h"
 #include "octree/page/page_streams.h"
+#include "planetree/attributes.h"
 #include "storage/file/file_layout.h"
 #include "tests/golden/format_fields.h"
 #include "tests/golden/spec_text.h"
@@ -104,6 +105,22 @@ TEST_P(SpecStreams, AreSplitWhereWiderThanAByte) {
     const bool is_wide = elements[i] != "u8" && elements[i] != "i8" && elements[i] != "bits";
     EXPECT_EQ(split[i], is_wide ? "yes" : "") << table.rows[i].front();
   }
+}
+
+TEST(SpecTables, StateTheAttributesAndTheirBytes) {
+  const SpecTable kinds = spec_tables("Attributes").at(0);
+  const std::vector<TableRow> streams = stream_table("Attribute page").rows;
+  ASSERT_EQ(kinds.rows.size(), 4u);
+  ASSERT_EQ(streams.size(), 4u);
+  for (std::size_t i = 0; i < kinds.rows.size(); ++i) {
+    const std::string bit = std::to_string(i);
+    storage::ModelRecord model{};
+    model.attributes = static_cast<std::uint8_t>(1u << i);
+    EXPECT_EQ(kinds.rows[i].at(0), bit);
+    EXPECT_EQ(std::stoul(kinds.rows[i].at(2)), model.attribute_bytes()) << i;
+    EXPECT_EQ(streams[i].back(), "bit " + bit);
+  }
+  EXPECT_EQ(kAllAttributes, 15u);
 }
 
 TEST(SpecTables, StateTheOctcodesOfCells) {
