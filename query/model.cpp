@@ -9,6 +9,7 @@
 #include "octree/geometry/fp_environment.h"
 #include "octree/geometry/octcode.h"
 #include "octree/geometry/startup_check.h"
+#include "query/answer/mesh_triangle.h"
 #include "query/file/field_loading.h"
 #include "query/file/page_decoding.h"
 #include "query/model_state.h"
@@ -49,16 +50,19 @@ ModelInfo describe(const storage::PageFile& file) {
   info.blocks = model.block_count;
   info.levels = model.height;
   info.layers = layers_of(model);
+  info.attributes = model.attributes;
+  info.value_kind = static_cast<ValueKind>(model.value_kind);
   info.pages = header.page_count;
   info.page_bytes = header.page_bytes;
   info.file_bytes = header.file_bytes;
   info.section_bytes.headers = 2 * sizeof header;
   info.section_bytes.page_table = file.entries().size_bytes();
   for (std::uint32_t page = 0; page < header.page_count; ++page)
-    (page < header.first_cap_page()     ? info.section_bytes.distance_pages
-     : page < header.first_field_page() ? info.section_bytes.cap_pages
-     : page < header.first_mask_page()  ? info.section_bytes.field_pages
-                                        : info.section_bytes.mask_pages) +=
+    (page < header.first_cap_page()         ? info.section_bytes.distance_pages
+     : page < header.first_field_page()     ? info.section_bytes.cap_pages
+     : page < header.first_attribute_page() ? info.section_bytes.field_pages
+     : page < header.first_mask_page()      ? info.section_bytes.attribute_pages
+                                            : info.section_bytes.mask_pages) +=
         file.entries()[page].stored_bytes;
   info.content_id[0] = header.content_id[0];
   info.content_id[1] = header.content_id[1];
@@ -84,7 +88,8 @@ Result<void> check_options(const OpenOptions& options) {
                       static_cast<unsigned>(options.policy));
   if ((options.layers & ~kAllLayers) == 0) return {};
   return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
-                    "layers are 0x%x; combine kSideLayer and kFieldLayer", options.layers);
+                    "layers are 0x%x; combine kSideLayer, kFieldLayer and kAttributeLayer",
+                    options.layers);
 }
 
 // Returns the number of probes of the model's own threads.
@@ -92,13 +97,16 @@ unsigned thread_probes(const OpenOptions& options) {
   return options.fetch_threads + (options.batch_threads > 1 ? options.batch_threads : 0);
 }
 
+// Model::triangles() has a reader of its own, without a probe.
+unsigned finders(const OpenLayers& opened) { return opened.has_attributes() ? 1 : 0; }
+
 Pager::Limits limits_of(const storage::FileHeader& header, const OpenOptions& options) {
   Pager::Limits limits;
   limits.budget_bytes = options.memory_budget_bytes;
   limits.opened = OpenLayers::of(header.model, options.layers);
   limits.max_probes = options.max_probes;
   limits.probe_bytes = sizeof(BatchBuffers);
-  limits.thread_probes = thread_probes(options);
+  limits.thread_probes = thread_probes(options) + finders(limits.opened);
   limits.thread_bytes = sizeof(ModelState) +
                         limits.thread_probes * (sizeof(QueryingFetchProbe) + sizeof(void*)) +
                         options.fetch_threads * FetchThreads::kThreadBytes +
@@ -182,6 +190,11 @@ Result<void> ModelState::start_threads(const OpenOptions& options, const ModelSe
     serving_->batch_probes = batch_probes_;
     serving_->batch_threads = batch_threads_.get();
   }
+  if (pager_->opened().has_attributes()) {
+    auto reader = claim_reader();
+    if (!reader) return reader.error();
+    finder_.emplace(*std::move(reader));
+  }
   if (!seams.starts_fetching) return {};
   std::vector<std::unique_ptr<FetchProbe>> probes;
   for (unsigned i = 0; i < options.fetch_threads; ++i) {
@@ -238,6 +251,29 @@ Result<Model> ModelState::open_model(const std::filesystem::path& path, const Op
   return Model(std::move(*state));
 }
 
+Result<void> ModelState::find_triangles(std::span<const std::uint64_t> indices,
+                                        std::span<MeshTriangle> triangles) const noexcept {
+  if (!finder_)
+    return make_error(ErrorCode::kUnsupported, Error::kNowhere, Error::kNowhere, "%s",
+                      info_.attributes == 0
+                          ? "the file does not keep where its triangles are; build it with "
+                            "--keep triangles"
+                          : "the attribute layer is not open; open it with kAttributeLayer");
+  if (triangles.size() < indices.size())
+    return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
+                      "%zu triangles do not fit in %zu; give as many as indices", indices.size(),
+                      triangles.size());
+  const octree::FpEnvironmentGuard host;
+  const std::lock_guard one(finding_);
+  PageAccessor accessor(*finder_, Wait::kForPages, serving_->query_terms);
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    const auto found = find_mesh_triangle(geometry(), accessor.pages(), indices[i]);
+    if (!found) return found.error();
+    triangles[i] = *found;
+  }
+  return {};
+}
+
 std::size_t ModelState::drain_page_trace(std::span<PageAccess> accesses) const noexcept {
   PageTraces* const traces = serving_->arena.traces;
   if (!traces) return 0;
@@ -289,6 +325,15 @@ Model::~Model() = default;
 
 const ModelInfo& Model::info() const noexcept { return state_->info(); }
 Stats Model::stats() const noexcept { return state_->stats(); }
+Result<void> Model::triangles(std::span<const std::uint64_t> indices,
+                              std::span<MeshTriangle> triangles) const noexcept {
+  return state_->find_triangles(indices, triangles);
+}
+Result<MeshTriangle> Model::triangle(std::uint64_t index) const noexcept {
+  MeshTriangle triangle;
+  const auto found = triangles({&index, 1}, {&triangle, 1});
+  return found ? Result<MeshTriangle>(triangle) : found.error();
+}
 std::size_t Model::drain_page_trace(std::span<PageAccess> accesses) const noexcept {
   return state_->drain_page_trace(accesses);
 }

@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "planetree/attributes.h"
 #include "planetree/error.h"
 #include "planetree/model.h"
 #include "planetree/stats.h"
@@ -59,6 +61,9 @@ class ModelState {
   /// Returns the reader of a new probe, or kBadArgument if all readers are in use.
   Result<cache::Reader> claim_reader() const noexcept { return pager_->cache().claim_reader(); }
   cache::PageCache& cache() const noexcept { return pager_->cache(); }
+  /// See Model::triangles.
+  Result<void> find_triangles(std::span<const std::uint64_t> indices,
+                              std::span<MeshTriangle> triangles) const noexcept;
   /// See Model::drain_page_trace.
   std::size_t drain_page_trace(std::span<PageAccess> accesses) const noexcept;
 
@@ -77,6 +82,9 @@ class ModelState {
   ModelInfo info_;
   std::unique_ptr<ServingModel, Destroy> serving_;
   bool field_damaged_ = false;
+  // For find_triangles(), one thread at a time; empty if the attribute layer is not open.
+  mutable std::mutex finding_;
+  mutable std::optional<cache::Reader> finder_;
   std::vector<std::unique_ptr<ProbeState>> batch_probes_;
   std::unique_ptr<BatchThreads> batch_threads_;
   std::optional<ReadAhead> read_ahead_;

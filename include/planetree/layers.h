@@ -19,7 +19,11 @@ inline constexpr std::uint32_t kSideLayer = 2;
 /// The coarse field. It saves work of answers within an error, and narrows degraded answers.
 /// Without it the intervals of such answers are wider. Exact answers are the same.
 inline constexpr std::uint32_t kFieldLayer = 4;
+/// The attributes of triangles (planetree/attributes.h), which Model::triangle() reads. Queries
+/// read nothing of it. A file has it if it was built with BuildOptions::keep.
+inline constexpr std::uint32_t kAttributeLayer = 8;
 /// All layers.
-inline constexpr std::uint32_t kAllLayers = kDistanceLayer | kSideLayer | kFieldLayer;
+inline constexpr std::uint32_t kAllLayers =
+    kDistanceLayer | kSideLayer | kFieldLayer | kAttributeLayer;
 
 }  // namespace planetree

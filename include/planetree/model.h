@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 
+#include "planetree/attributes.h"
 #include "planetree/error.h"
 #include "planetree/eviction_policy.h"
 #include "planetree/export.h"
@@ -60,10 +61,10 @@ struct OpenOptions {
   /// Maximum number of probes at one time, 1 to kMaxProbes. Open reserves memory of the budget for
   /// all of them.
   unsigned max_probes = 16;
-  /// Layers to open: kSideLayer and kFieldLayer, combined with `|`. The distance layer is always
-  /// opened. A layer that the file does not have is left out. Of a layer that is not opened, no
-  /// page is read, and nothing is allocated or counted towards the budget. Distances, nearest
-  /// points and triangles of exact answers have the same bits for all layers.
+  /// Layers to open: kSideLayer, kFieldLayer and kAttributeLayer, combined with `|`. The distance
+  /// layer is always opened. A layer that the file does not have is left out. Of a layer that is
+  /// not opened, no page is read, and nothing is allocated or counted towards the budget.
+  /// Distances, nearest points and triangles of exact answers have the same bits for all layers.
   ///
   /// Without kSideLayer, a side by SideRule::kSolid is kUnknown: a query whose parts have kSide or
   /// kNormal is kDegraded, and so is Probe::contains. The normal then follows the orientation of
@@ -162,6 +163,24 @@ class PLANETREE_API Model {
   ///          all traces.
   /// threads  any, but no two at the same time. Takes no mutex.
   std::size_t drain_page_trace(std::span<PageAccess> accesses) const noexcept;
+
+  /// Returns triangles of the mesh by their indices: corners in the order of the mesh, and what the
+  /// file keeps of them (ModelInfo::attributes). Reads the pages that are not in memory and waits
+  /// for the disk, as a blocking query does. Indices in the order of the mesh, or of answers to
+  /// neighbouring points, take the least time.
+  ///
+  /// indices    as ClosestPoint::triangle has them.
+  /// triangles  of the same length; undefined after an error.
+  /// errors     kUnsupported: the file was built without BuildOptions::keep, or its attribute layer
+  ///            is not open. kBadArgument: an index is not one of the mesh, or `triangles` is
+  ///            shorter. kNotFound: the record of an index was skipped, or its triangle is not in
+  ///            the region of the file. kReadFailed: a page cannot be read, or not within
+  ///            OpenOptions::wait_limit_ms. kDamaged: the file is.
+  /// threads    any, one at a time: others wait. Not for real-time threads.
+  Result<void> triangles(std::span<const std::uint64_t> indices,
+                         std::span<MeshTriangle> triangles) const noexcept;
+  /// Returns one triangle, in the same way.
+  Result<MeshTriangle> triangle(std::uint64_t index) const noexcept;
 
  private:
   friend class Probe;

@@ -7,6 +7,7 @@
 /// units   lengths and positions are in the units of the mesh that the file was built from.
 /// axes    positions and directions are in the coordinate system of that mesh.
 
+#include "planetree/attributes.h"
 #include "planetree/build.h"
 #include "planetree/contact.h"
 #include "planetree/error.h"

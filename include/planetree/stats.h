@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "planetree/attributes.h"
 #include "planetree/layers.h"
 #include "planetree/types.h"
 
@@ -50,19 +51,23 @@ struct ModelInfo {
   std::uint64_t blocks = 0;           ///< leaves of the tree: blocks of up to 16 triangles
   std::uint32_t levels = 0;           ///< height of the tree, in nodes
   std::uint32_t layers = kAllLayers;  ///< layers of the file, as BuildOptions::layers
-  std::uint32_t pages = 0;            ///< pages of all parts; numbers go from 0
-  std::uint32_t page_bytes = 0;       ///< maximum bytes of a decoded page; a power of two
-  std::uint64_t file_bytes = 0;       ///< length of the file
+  /// Attributes that the file keeps of its triangles, as BuildOptions::keep; 0: none.
+  std::uint32_t attributes = 0;
+  ValueKind value_kind = ValueKind::kUnsigned;  ///< type of MeshTriangle::value, with kKeepValue
+  std::uint32_t pages = 0;                      ///< pages of all parts; numbers go from 0
+  std::uint32_t page_bytes = 0;                 ///< maximum bytes of a decoded page; a power of two
+  std::uint64_t file_bytes = 0;                 ///< length of the file
   /// Stored bytes of each part of the file. They add up to `file_bytes`.
   struct {
-    std::uint64_t headers = 0;         ///< header and its copy
-    std::uint64_t page_table = 0;      ///< page table
-    std::uint64_t distance_pages = 0;  ///< pages of the tree
-    std::uint64_t cap_pages = 0;       ///< pages of the caps that close the surface
-    std::uint64_t field_pages = 0;     ///< pages of the coarse field
-    std::uint64_t mask_pages = 0;      ///< pages of the mask
-  } section_bytes;                     ///< stored bytes of each part
-  std::uint64_t content_id[2] = {};    ///< hash over the hashes of all pages, low word first
+    std::uint64_t headers = 0;          ///< header and its copy
+    std::uint64_t page_table = 0;       ///< page table
+    std::uint64_t distance_pages = 0;   ///< pages of the tree
+    std::uint64_t cap_pages = 0;        ///< pages of the caps that close the surface
+    std::uint64_t field_pages = 0;      ///< pages of the coarse field
+    std::uint64_t attribute_pages = 0;  ///< pages of the attributes of triangles
+    std::uint64_t mask_pages = 0;       ///< pages of the mask
+  } section_bytes;                      ///< stored bytes of each part
+  std::uint64_t content_id[2] = {};     ///< hash over the hashes of all pages, low word first
 
   /// Whether every edge of the input is balanced: as many triangles traverse it in one direction as
   /// in the other. Edges whose ends have equal positions are one edge. Winding numbers are then

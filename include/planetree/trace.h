@@ -32,10 +32,11 @@ struct PageAccess {
   };
   /// Part of the file that has the page.
   enum class Section : std::uint8_t {
-    kTree,   ///< pages of the tree
-    kCaps,   ///< pages of the caps that close the surface
-    kField,  ///< pages of the coarse field; these are read at open and have no records
-    kMask,   ///< pages of the mask, which tells sides
+    kTree,        ///< pages of the tree
+    kCaps,        ///< pages of the caps that close the surface
+    kField,       ///< pages of the coarse field; these are read at open and have no records
+    kMask,        ///< pages of the mask, which tells sides
+    kAttributes,  ///< pages of the attributes of triangles
   };
 
   /// Time in nanoseconds since the model was opened. Each kInstalled and kEvicted has a time of its

@@ -48,6 +48,12 @@ octree::MaskInfo mask_info(const storage::FileHeader& header, const OpenLayers& 
   return mask;
 }
 
+AttributePages attribute_pages(const storage::FileHeader& header, const OpenLayers& opened) {
+  if (!opened.has_attributes()) return {};
+  return {attribute_shape(header.model), header.first_attribute_page(),
+          header.triangles_per_attribute_page(), header.model.index_count()};
+}
+
 }  // namespace
 
 octree::Region region_of(const storage::ModelRecord& model) {
@@ -62,6 +68,7 @@ ModelGeometry::ModelGeometry(const storage::FileHeader& header, const OpenLayers
       tree(tree_info(header, scale)),
       caps(cap_info(header, tree)),
       mask(mask_info(header, opened, tree)),
+      attributes(attribute_pages(header, opened)),
       region(region_of(header.model)),
       region_corner(region.clamped(tree.core_lower)),
       diagonal((tree.core_upper - tree.core_lower).norm()),

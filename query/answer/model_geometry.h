@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 
+#include "octree/attributes/attribute_page.h"
 #include "octree/field/coarse_field.h"
 #include "octree/geometry/cell_grid.h"
 #include "octree/mask/cap_grid.h"
@@ -23,6 +24,14 @@ enum class SideMeans : std::uint8_t {
   kNothing,        ///< it would be the winding number, but the side layer is not opened
 };
 
+/// Where the attributes of triangles are; empty if their layer is not open.
+struct AttributePages {
+  octree::AttributeShape shape;
+  std::uint32_t first_page = 0;
+  std::uint32_t in_page = 0;      ///< triangles in a page; the last may have fewer
+  std::uint64_t index_count = 0;  ///< of the mesh
+};
+
 /// The data of a model that queries need besides its pages. It does not change after the side grid
 /// is filled; then any number of threads may read it. Lengths are in the model frame.
 struct ModelGeometry {
@@ -34,9 +43,10 @@ struct ModelGeometry {
   octree::TreeInfo tree;  ///< tree.caps is null if there are no caps or they are not opened
   octree::TreeInfo caps;
   octree::MaskInfo mask;
-  octree::SideGrid side_grid;   ///< empty until filled
-  octree::CoarseField field;    ///< tells nothing until filled
-  octree::CapGrid cap_grid;     ///< if there are caps, nothing is clear until it is filled
+  octree::SideGrid side_grid;  ///< empty until filled
+  octree::CoarseField field;   ///< tells nothing until filled
+  octree::CapGrid cap_grid;    ///< if there are caps, nothing is clear until it is filled
+  AttributePages attributes;
   octree::Region region;        ///< part of space whose surface the file holds
   octree::Point region_corner;  ///< a point of the region; see region_winding
   double diagonal;              ///< of the core

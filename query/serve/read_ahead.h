@@ -10,14 +10,14 @@ namespace planetree::query {
 
 /// The pages of a model in the order of the file, for fetch threads that have nothing else to do.
 /// Each page is given out once. The pages of layers that are not opened, and those of the field,
-/// are left out: no query reads them. Any number of threads may share one.
+/// are left out: the cache never holds them. Any number of threads may share one.
 class ReadAhead {
  public:
   static constexpr std::uint32_t kNoPage = ~std::uint32_t{0};
 
   ReadAhead(const OpenLayers& opened, const storage::FileHeader& header) noexcept
       : end_(opened.page_count(header)),
-        first_unused_(header.first_field_page()),
+        first_unused_(opened.first_unused_page(header)),
         unused_(opened.unused_pages(header)) {}
 
   /// Returns the next page, kNoPage after the last one.

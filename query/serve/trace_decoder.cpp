@@ -14,10 +14,11 @@ using Query = PageAccess::Query;
 bool is_of_fetch_thread(Query query) { return query == Query::kFetch || query == Query::kPrefetch; }
 
 PageAccess::Section section_of(const storage::FileHeader& header, std::uint32_t page) {
-  return page < header.first_cap_page()     ? PageAccess::Section::kTree
-         : page < header.first_field_page() ? PageAccess::Section::kCaps
-         : page < header.first_mask_page()  ? PageAccess::Section::kField
-                                            : PageAccess::Section::kMask;
+  return page < header.first_cap_page()         ? PageAccess::Section::kTree
+         : page < header.first_field_page()     ? PageAccess::Section::kCaps
+         : page < header.first_attribute_page() ? PageAccess::Section::kField
+         : page < header.first_mask_page()      ? PageAccess::Section::kAttributes
+                                                : PageAccess::Section::kMask;
 }
 
 }  // namespace

@@ -34,9 +34,10 @@ class BuildLayers : public InFolder {
     EXPECT_TRUE(report) << report.error().text;
     auto model = Model::open(output());
     EXPECT_TRUE(model) << model.error().text;
-    EXPECT_EQ(report->layers, layers | kDistanceLayer);
-    EXPECT_EQ(model->info().layers, layers | kDistanceLayer);
-    EXPECT_EQ(model->stats().layers, layers | kDistanceLayer);
+    const std::uint32_t expected = (layers & ~kAttributeLayer) | kDistanceLayer;
+    EXPECT_EQ(report->layers, expected);
+    EXPECT_EQ(model->info().layers, expected);
+    EXPECT_EQ(model->stats().layers, expected);
     EXPECT_EQ(model->info().watertight(), report->watertight());
     return *std::move(model);
   }

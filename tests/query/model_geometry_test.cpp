@@ -22,8 +22,10 @@ storage::FileHeader header_with_strays() {
   return header;
 }
 
+constexpr OpenLayers kSides{kDistanceLayer | kSideLayer};
+
 TEST(ModelGeometry, HasTheMaskAtTheCore) {
-  const ModelGeometry geometry(header_with_strays(), {kAllLayers});
+  const ModelGeometry geometry(header_with_strays(), kSides);
   EXPECT_EQ(geometry.tree.box_lower.x(), -200);
   EXPECT_EQ(geometry.tree.core_lower.x(), 0);
   EXPECT_EQ(geometry.tree.core_upper.x(), 1.5);
@@ -35,12 +37,12 @@ TEST(ModelGeometry, HasTheMaskAtTheCore) {
 
 TEST(ModelGeometry, BoundsTheErrorOfStrays) {
   storage::FileHeader header = header_with_strays();
-  EXPECT_EQ(ModelGeometry(header, {kAllLayers}).tree.bound_slack, octree::bound_slack(0x1p10));
-  EXPECT_GT(ModelGeometry(header, {kAllLayers}).tree.bound_slack, octree::kAbsoluteBoundSlack);
+  EXPECT_EQ(ModelGeometry(header, kSides).tree.bound_slack, octree::bound_slack(0x1p10));
+  EXPECT_GT(ModelGeometry(header, kSides).tree.bound_slack, octree::kAbsoluteBoundSlack);
   header.model.stray_count = 0;
   header.model.stray_edge = 0;
-  EXPECT_EQ(ModelGeometry(header, {kAllLayers}).tree.bound_slack, octree::kAbsoluteBoundSlack);
-  EXPECT_TRUE(ModelGeometry(header, {kAllLayers}).mask.reaches({9, 9, 9}));
+  EXPECT_EQ(ModelGeometry(header, kSides).tree.bound_slack, octree::kAbsoluteBoundSlack);
+  EXPECT_TRUE(ModelGeometry(header, kSides).mask.reaches({9, 9, 9}));
 }
 
 }  // namespace
