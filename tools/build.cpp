@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "octree/builder/mesh/stream/mesh_text.h"
+#include "tools/cli/attribute_option.h"
 #include "tools/cli/coordinate_text.h"
 #include "tools/cli/file_digest.h"
 #include "tools/cli/file_text.h"
@@ -119,6 +120,7 @@ std::string json_report(const BuildArguments& arguments, const BuildReport& buil
       {"side_rule", built.side_rule == SideRule::kSurface ? "surface" : "solid"},
       {"openness", built.openness},
       {"layers", layer_words(built.layers)},
+      {"attributes", attribute_words(built.attributes)},
       {"levels", built.levels},
       {"nodes", built.nodes},
       {"blocks", built.blocks},
@@ -291,6 +293,7 @@ void add_build(CLI::App& app, Console& console, std::function<int()>& action) {
       "Build only these layers of the file: distance (always built), side (sides of solids), "
       "field (answers within an error, and degraded ones), with commas between them. What is "
       "left out cannot be opened; sides of solids are unknown without side");
+  add_keep(subcommand, arguments.options.keep, arguments.options.value_property);
   subcommand.flag(
       "--resume", arguments.options.resume,
       "Keep a checkpoint in the directory OUT.ptree.work, next to the output or in --temp-dir, "

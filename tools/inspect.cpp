@@ -110,15 +110,17 @@ int Inspection::show_all() {
 int Inspection::show_page(std::uint32_t page) {
   IssueList issues;
   for (const Issue& issue : parts_.issues()) issues.add(issue);
-  PageRow row{page, parts_.entries()[page], {}, {}, {}, false};
+  PageRow row{page, parts_.entries()[page], {}, {}, {}, {}, false};
   std::optional<Issue> issue = parts_.read_page(page);
   const bool mask = page >= parts_.first_mask_page();
   const bool field = parts_.is_field_page(page);
-  row.is_of_caps = !mask && !field && page >= parts_.first_cap_page();
-  if (octree::RawStreams streams; !issue && !mask && !field && parts_.read(streams))
+  const bool attributes = parts_.is_attribute_page(page);
+  row.is_of_caps = !mask && !field && !attributes && page >= parts_.first_cap_page();
+  if (octree::RawStreams streams; !issue && !mask && !field && !attributes && parts_.read(streams))
     row.head = streams.head;
   if (!issue) row.mask = parts_.mask_head();
   if (!issue) row.field = parts_.field_head();
+  if (!issue) row.attributes = parts_.attribute_head();
   if (!issue) issue = parts_.decode_page();
   Json details = page_details(parts_, row, !issue);
   if (issue) issues.add(*issue);

@@ -13,6 +13,7 @@
 #include "planetree/model.h"
 #include "planetree/probe.h"
 #include "tools/answer_tally.h"
+#include "tools/answers/painted_point.h"
 #include "tools/answers/ray_rows.h"
 #include "tools/cli/layer_option.h"
 #include "tools/cli/open_model.h"
@@ -87,16 +88,29 @@ class QueryRun {
     }
     if (arguments_.triangles.is_given()) {
       TriangleRows sets(probe_, options_, arguments_.triangles);
-      return answer_all<ClosestPoint>(points, output, [&](std::span<const Vec3> queries) {
+      return answer_points(points, output, [&](std::span<const Vec3> queries) {
         sets.answer(queries);
         return Rows<ClosestPoint>{sets.points(), sets.rows()};
       });
     }
     std::vector<ClosestPoint> answers(chunk_points());
-    return answer_all<ClosestPoint>(points, output, [&](std::span<const Vec3> queries) {
+    return answer_points(points, output, [&](std::span<const Vec3> queries) {
       const auto own = std::span(answers).first(queries.size());
       probe_.closest_points(queries, own, options_);
       return Rows<ClosestPoint>{queries, own};
+    });
+  }
+  // rows_of(queries) returns Rows of ClosestPoint.
+  template <class RowsOf>
+  int answer_points(PointReader& points, AnswerOutput& output, const RowsOf& rows_of) {
+    if (!arguments_.attributes) return answer_all<ClosestPoint>(points, output, rows_of);
+    form_.attributes = model_.info().attributes;
+    form_.value_kind = model_.info().value_kind;
+    std::vector<PaintedPoint> all;
+    return answer_all<PaintedPoint>(points, output, [&](std::span<const Vec3> queries) {
+      const Rows<ClosestPoint> rows = rows_of(queries);
+      all = painted(model_, rows.answers);
+      return Rows<PaintedPoint>{rows.queries, all};
     });
   }
 
@@ -277,6 +291,8 @@ int run_query(const QueryArguments& arguments, Console& console) {
   if (!options) return console.fail(file, options.error());
   const auto model = open_model(arguments.file, *options, console);
   if (!model) return console.fail(file, model.error());
+  if (arguments.attributes)
+    if (const auto kept = model->triangles({}, {}); !kept) return console.fail(file, kept.error());
   auto probe = Probe::create(*model);
   if (!probe) return console.fail(file, probe.error());
   if (*trace)

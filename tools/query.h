@@ -32,6 +32,7 @@ struct QueryArguments {
   bool parts_are_given = false;       ///< else the parts that the layers tell are computed
   bool contains = false;              ///< request the side alone
   TriangleRowsQuery triangles;        ///< if given: request the triangles about each point
+  bool attributes = false;            ///< report those of triangles
   std::uint64_t hits = 1;             ///< list at most so many hits of each ray
   std::uint32_t layers = kAllLayers;  ///< layers to open
   EvictionPolicy policy = OpenOptions{}.policy;  ///< how the page to evict is chosen

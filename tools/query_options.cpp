@@ -124,12 +124,18 @@ void add_answers(SubcommandOptions& subcommand, Options& options) {
           "point's side of the surface"),
       "outward");
   subcommand.exclude(normal, contains);
+  const auto attributes = subcommand.flag(
+      "--attributes", arguments.attributes,
+      "Report what the file keeps of the triangle (build --keep), in further columns: red, green, "
+      "blue and alpha from 0 to 255 and u and v, interpolated at the point, and value");
+  subcommand.exclude(attributes, contains);
   for (const auto triangles : {nearest, within})
     for (const auto other : {contains, normal}) subcommand.exclude(triangles, other);
   for (const auto other : {contains, nearest, within}) subcommand.exclude(contacts, other);
   subcommand.exclude(is_signed, contains);
   subcommand.exclude(parts, contains);
-  options.only_of_points = {contains, nearest, within, contacts, is_signed, parts, side, normal};
+  options.only_of_points = {contains, nearest, within, contacts,  is_signed,
+                            parts,    side,    normal, attributes};
   subcommand.default_text(
       subcommand.word(
           "--format", {"csv", "jsonl", "f64", "npy", "ply", "vtp"},

@@ -27,6 +27,7 @@ class HeaderFields {
 
   void number(std::string_view name, double, FieldState = FieldState::kKnown) { add(name); }
   void count(std::string_view name, std::uint64_t, FieldState) { add(name); }
+  void integer(std::string_view name, std::int64_t, FieldState) { add(name); }
   void flag(std::string_view name, bool, FieldState) { add(name); }
   void code(std::string_view name, const Word&, double, FieldState) { add(name); }
   void word(std::string_view name, const Word&, FieldState = FieldState::kKnown) { add(name); }
@@ -50,6 +51,7 @@ class CsvFields {
     add(value, state);
   }
   void count(std::string_view, std::uint64_t value, FieldState state) { add(value, state); }
+  void integer(std::string_view, std::int64_t value, FieldState state) { add(value, state); }
   void flag(std::string_view, bool value, FieldState state) { add(value ? 1 : 0, state); }
   /// A word that has a number in f64.
   void code(std::string_view, const Word& word, double, FieldState state) { add(word.text, state); }
@@ -81,6 +83,9 @@ class JsonFields {
     add(name, value, is_null ? FieldState::kNone : state);
   }
   void count(std::string_view name, std::uint64_t value, FieldState state) {
+    add(name, value, state);
+  }
+  void integer(std::string_view name, std::int64_t value, FieldState state) {
     add(name, value, state);
   }
   void flag(std::string_view name, bool value, FieldState state) { add(name, value, state); }
@@ -122,6 +127,9 @@ class F64Fields {
     text_.append(bytes.data(), bytes.data() + bytes.size());
   }
   void count(std::string_view name, std::uint64_t value, FieldState state) {
+    number(name, static_cast<double>(value), state);
+  }
+  void integer(std::string_view name, std::int64_t value, FieldState state) {
     number(name, static_cast<double>(value), state);
   }
   void flag(std::string_view name, bool value, FieldState state) {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "planetree/attributes.h"
 #include "planetree/contact.h"
 #include "planetree/types.h"
 #include "tools/answers/answer_output.h"
@@ -28,7 +29,11 @@ struct AnswerForm {
   std::uint32_t parts = kAllParts;
   /// Rays have t_min and t_max. In kF64 they always do.
   bool shows_range = false;
+  std::uint32_t attributes = 0;                 ///< of PaintedPoint: those that the file keeps
+  ValueKind value_kind = ValueKind::kUnsigned;  ///< of PaintedPoint
 };
+
+struct PaintedPoint;
 
 /// Writes answers in one form, one row per answer.
 class AnswerWriter {
@@ -40,11 +45,13 @@ class AnswerWriter {
 
   /// Writes the header of answers of this type. False and errors as AnswerOutput::write().
   Result<bool> begin(const ClosestPoint&);
+  Result<bool> begin(const PaintedPoint&);
   Result<bool> begin(const Containment&);
   Result<bool> begin(const RayHit&);
   Result<bool> begin(const FirstContact&);
   /// Writes a row for each answer; the spans have equal lengths. False and errors as in begin().
   Result<bool> write(std::span<const Vec3> queries, std::span<const ClosestPoint> answers);
+  Result<bool> write(std::span<const Vec3> queries, std::span<const PaintedPoint> answers);
   Result<bool> write(std::span<const Vec3> queries, std::span<const Containment> answers);
   Result<bool> write(std::span<const Ray> queries, std::span<const RayHit> answers);
   Result<bool> write(std::span<const Sweep> queries, std::span<const FirstContact> answers);

@@ -13,7 +13,7 @@
 
 /// The fields of a row of answers in the columns of an array. Both classes here have the members of
 /// those in answer_fields.h. Fields that were not requested have no column. A field without a value
-/// is NaN, -1 as a count, 0 as a flag, and kNoWord as a word.
+/// is NaN, -1 as a count, 0 as an integer or a flag, and kNoWord as a word.
 namespace planetree::tools {
 
 inline constexpr std::uint8_t kNoWord = 255;
@@ -32,6 +32,9 @@ class ColumnFields {
       columns_.back().parts.assign(name.parts.begin(), name.parts.end());
   }
   void count(std::string_view name, std::uint64_t, FieldState state) {
+    add(name, NumberType::kInt64, state);
+  }
+  void integer(std::string_view name, std::int64_t, FieldState state) {
     add(name, NumberType::kInt64, state);
   }
   void flag(std::string_view name, bool, FieldState state) { add(name, NumberType::kBool, state); }
@@ -64,6 +67,9 @@ class PackedFields {
   }
   void count(std::string_view, std::uint64_t value, FieldState state) {
     add(static_cast<std::int64_t>(value), std::int64_t{-1}, state);
+  }
+  void integer(std::string_view, std::int64_t value, FieldState state) {
+    add(value, std::int64_t{0}, state);
   }
   void flag(std::string_view, bool value, FieldState state) {
     add(static_cast<std::uint8_t>(value), std::uint8_t{0}, state);

@@ -36,8 +36,8 @@ inline double side_number(Side side) {
 }
 
 template <class Fields>
-void add_row(Fields& fields, const AnswerForm& form, const Vec3& query,
-             const ClosestPoint& answer) {
+void add_point(Fields& fields, const AnswerForm& form, const Vec3& query,
+               const ClosestPoint& answer) {
   const FieldState distance = state_of(form, kDistance);
   const bool has_triangle = answer.triangle != kNoTriangle;
   add_vector(fields, kQueryName, query);
@@ -54,6 +54,12 @@ void add_row(Fields& fields, const AnswerForm& form, const Vec3& query,
                has_triangle || distance != FieldState::kKnown ? distance : FieldState::kNone);
   fields.word("feature", named(answer.feature), distance);
   fields.word("status", named(answer.status));
+}
+
+template <class Fields>
+void add_row(Fields& fields, const AnswerForm& form, const Vec3& query,
+             const ClosestPoint& answer) {
+  add_point(fields, form, query, answer);
   fields.end();
 }
 

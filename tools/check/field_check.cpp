@@ -91,8 +91,8 @@ class FieldCheck {
 
 void check_field(FileParts& parts, bool prove, CheckReport& report, const CheckProgress& progress) {
   FieldCheck check(parts, report.issues);
-  if (prove && parts.first_field_page() < parts.first_mask_page()) check.open_proof();
-  for (std::uint32_t page = parts.first_field_page(); page < parts.first_mask_page(); ++page) {
+  if (prove && parts.first_field_page() < parts.first_attribute_page()) check.open_proof();
+  for (std::uint32_t page = parts.first_field_page(); page < parts.first_attribute_page(); ++page) {
     report.pages += check.check_page(page) ? 1 : 0;
     if (progress) progress(page + 1);
   }

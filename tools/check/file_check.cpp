@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "tools/check/attribute_check.h"
 #include "tools/check/field_check.h"
 #include "tools/check/geometry_check.h"
 #include "tools/check/height_field_check.h"
@@ -49,6 +50,7 @@ CheckReport check_file(FileParts& parts, bool full, const CheckProgress& progres
   }
   const auto is_proving = [&] { return full && report.issues.count() == 0; };
   check_field(parts, is_proving(), report, progress);
+  check_attributes(parts, is_proving(), report, progress);
   check_mask(parts, is_proving(), report, progress);
   if (is_proving()) check_height_fields(parts, report.issues);
   return report;

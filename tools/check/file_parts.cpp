@@ -175,6 +175,13 @@ std::optional<octree::FieldPageHead> FileParts::field_head() const {
   return head;
 }
 
+std::optional<octree::AttributePageHead> FileParts::attribute_head() const {
+  octree::AttributePageHead head;
+  if (!is_attribute_page(page_) || raw_.size() < sizeof head) return {};
+  std::memcpy(&head, raw_.data(), sizeof head);
+  return head;
+}
+
 std::optional<Issue> FileParts::decode_page() {
   const storage::PageEntry& entry = entries_[page_];
   const auto decoded = query::decode_frame(header_, entry, page_, raw_, frame_.span());

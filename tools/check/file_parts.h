@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "octree/attributes/attribute_page.h"
 #include "octree/field/field_page.h"
 #include "octree/page/mask_streams.h"
 #include "octree/page/page_streams.h"
@@ -53,8 +54,15 @@ class FileParts {
   std::uint32_t first_field_page() const {
     return std::min(header_.first_field_page(), page_count());
   }
+  /// Number of the first attribute page.
+  std::uint32_t first_attribute_page() const {
+    return std::min(header_.first_attribute_page(), page_count());
+  }
   bool is_field_page(std::uint32_t page) const {
-    return page >= first_field_page() && page < first_mask_page();
+    return page >= first_field_page() && page < first_attribute_page();
+  }
+  bool is_attribute_page(std::uint32_t page) const {
+    return page >= first_attribute_page() && page < first_mask_page();
   }
   /// Number of the first cap page. Pages before it are distance pages.
   std::uint32_t first_cap_page() const { return std::min(header_.first_cap_page(), page_count()); }
@@ -81,6 +89,8 @@ class FileParts {
   std::optional<octree::MaskPageHead> mask_head() const;
   /// Head of the page read last, if that is a field page.
   std::optional<octree::FieldPageHead> field_head() const;
+  /// Head of the page read last, if that is an attribute page.
+  std::optional<octree::AttributePageHead> attribute_head() const;
   /// The page decoded last, which must be a distance page or a cap page. Valid until the next
   /// decode_page().
   FrameView frame() const { return FrameView(frame_.data(), shape()); }

@@ -44,7 +44,8 @@ constexpr std::array<std::string_view, kIssueCodeCount> kNames = {"NOT_PLANETREE
                                                                   "BLOCK_HEIGHT_FIELD",
                                                                   "REGION",
                                                                   "CAPS",
-                                                                  "FIELD"};
+                                                                  "FIELD",
+                                                                  "ATTRIBUTES"};
 static_assert(!kNames.back().empty());
 
 }  // namespace

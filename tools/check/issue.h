@@ -49,8 +49,9 @@ enum class IssueCode : std::uint8_t {
   kRegion,
   kCaps,
   kField,
+  kAttributes,
 };
-inline constexpr std::size_t kIssueCodeCount = static_cast<std::size_t>(IssueCode::kField) + 1;
+inline constexpr std::size_t kIssueCodeCount = static_cast<std::size_t>(IssueCode::kAttributes) + 1;
 
 /// The code's name in reports, such as "PAGE_CHECKSUM".
 [[nodiscard]] std::string_view issue_name(IssueCode code);

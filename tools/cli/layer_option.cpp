@@ -10,13 +10,16 @@
 namespace planetree::tools {
 namespace {
 
-constexpr std::array<WordBit, 3> kWords = {
-    {{"distance", kDistanceLayer}, {"side", kSideLayer}, {"field", kFieldLayer}}};
+constexpr std::array<WordBit, 4> kWords = {{{"distance", kDistanceLayer},
+                                            {"side", kSideLayer},
+                                            {"field", kFieldLayer},
+                                            {"attributes", kAttributeLayer}}};
 
 std::string complaint_of(const std::string& text) {
   if (layers_of(text) != 0) return {};
   return fmt::format(
-      "'{}' is not a list of layers; give distance, side, field or several of them, with commas",
+      "'{}' is not a list of layers; give distance, side, field, attributes or several of them, "
+      "with commas",
       octree::printable(text));
 }
 
@@ -43,7 +46,8 @@ void add_open_layers(SubcommandOptions& subcommand, std::uint32_t& layers) {
   add_layers(subcommand, layers,
              "Open only these layers of the file, to save memory and reads: distance (always "
              "opened), side (sides of solids), field (answers within an error, and degraded ones), "
-             "with commas between them. Without side, answers have the distance alone, unless "
+             "attributes (what the file keeps of triangles), with commas between them. Without "
+             "side, answers have the distance alone, unless "
              "the surface is a sheet");
 }
 

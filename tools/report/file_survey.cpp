@@ -26,7 +26,7 @@ class Surveyor {
     const std::uint32_t root = parts_.header()->model.root_link;
     pending_.add({links_.page(root), links_.slot(root), links_.is_leaf(root)}, 0);
     for (std::uint32_t page = 0; page < parts_.page_count(); ++page) {
-      PageRow row{page, parts_.entries()[page], {}, {}, {}, false};
+      PageRow row{page, parts_.entries()[page], {}, {}, {}, {}, false};
       survey_page(row);
       if (!visit(row)) break;
     }
@@ -39,6 +39,7 @@ class Surveyor {
     if (!issue) issue = parts_.decode_page();
     const bool mask = row.number >= parts_.first_mask_page();
     if (parts_.is_field_page(row.number)) return survey_field_page(row, std::move(issue));
+    if (parts_.is_attribute_page(row.number)) return survey_attributes(row, std::move(issue));
     const bool caps = !mask && row.number >= parts_.first_cap_page();
     row.is_of_caps = caps;
     if (issue) {
@@ -65,6 +66,13 @@ class Surveyor {
     if (issue) return survey_.issues.add(*std::move(issue));
     row.field = parts_.field_head();
     add(stream_rows(*row.field), survey_.field_streams);
+  }
+
+  void survey_attributes(PageRow& row, std::optional<Issue> issue) {
+    if (issue) return survey_.issues.add(*std::move(issue));
+    row.attributes = parts_.attribute_head();
+    add(stream_rows(*row.attributes, query::attribute_shape(parts_.header()->model)),
+        survey_.attribute_streams);
   }
 
   MaskLevelRow& mask_level(std::size_t level) {

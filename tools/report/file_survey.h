@@ -36,17 +36,18 @@ struct MaskLevelRow {
 struct PageRow {
   std::uint32_t number = 0;
   storage::PageEntry entry{};
-  std::optional<octree::PageHead> head;        ///< head of a distance page or cap page
-  std::optional<octree::MaskPageHead> mask;    ///< head of a mask page
-  std::optional<octree::FieldPageHead> field;  ///< head of a field page
-  bool is_of_caps = false;                     ///< `head` is that of a cap page
+  std::optional<octree::PageHead> head;                 ///< head of a distance page or cap page
+  std::optional<octree::MaskPageHead> mask;             ///< head of a mask page
+  std::optional<octree::FieldPageHead> field;           ///< head of a field page
+  std::optional<octree::AttributePageHead> attributes;  ///< head of an attribute page
+  bool is_of_caps = false;                              ///< `head` is that of a cap page
 };
 
 /// Contents of a file, counted in one pass over its pages.
 struct FileSurvey {
   IssueList issues;
   /// Sums over all pages of a kind. Empty if none can be read.
-  std::vector<StreamRow> streams, cap_streams, field_streams, mask_streams;
+  std::vector<StreamRow> streams, cap_streams, field_streams, attribute_streams, mask_streams;
   std::uint64_t lists = 0;            ///< listed cells of the mask
   std::uint64_t height_fields = 0;    ///< blocks marked as height fields
   std::vector<LevelRow> levels;       ///< by depth

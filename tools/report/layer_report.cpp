@@ -39,7 +39,8 @@ std::optional<std::uint64_t> min_budget(const FileParts& parts, std::uint32_t la
 std::vector<LayerRow> layer_rows(const FileParts& parts) {
   const Sections sections = sections_of(parts);
   const std::uint32_t cap_pages = parts.first_field_page() - parts.first_cap_page();
-  const std::uint32_t field_pages = parts.first_mask_page() - parts.first_field_page();
+  const std::uint32_t field_pages = parts.first_attribute_page() - parts.first_field_page();
+  const std::uint32_t attribute_pages = parts.first_mask_page() - parts.first_attribute_page();
   const std::uint32_t side_pages = cap_pages + parts.page_count() - parts.first_mask_page();
   const std::uint64_t page_bytes = parts.header()->page_bytes;
   const std::uint32_t there = query::layers_of(parts.header()->model);
@@ -51,7 +52,8 @@ std::vector<LayerRow> layer_rows(const FileParts& parts) {
   std::vector<LayerRow> rows = {
       row(kDistanceLayer, parts.first_cap_page(), sections.distance_pages),
       row(kSideLayer, side_pages, sections.side_pages()),
-      row(kFieldLayer, field_pages, sections.field_pages)};
+      row(kFieldLayer, field_pages, sections.field_pages),
+      row(kAttributeLayer, attribute_pages, sections.attribute_pages)};
   const auto all = min_budget(parts, kAllLayers);
   for (LayerRow& each : rows) {
     if (each.layer == kDistanceLayer || !each.is_there || !all) continue;
@@ -68,10 +70,11 @@ Sections sections_of(const FileParts& parts) {
   sections.headers = 2 * storage::kHeaderBytes;
   sections.page_table = parts.entries().size_bytes();
   for (std::uint32_t page = 0; page < parts.page_count(); ++page)
-    (page < parts.first_cap_page()     ? sections.distance_pages
-     : page < parts.first_field_page() ? sections.cap_pages
-     : page < parts.first_mask_page()  ? sections.field_pages
-                                       : sections.mask_pages) += parts.entries()[page].stored_bytes;
+    (page < parts.first_cap_page()         ? sections.distance_pages
+     : page < parts.first_field_page()     ? sections.cap_pages
+     : page < parts.first_attribute_page() ? sections.field_pages
+     : page < parts.first_mask_page()      ? sections.attribute_pages
+                                      : sections.mask_pages) += parts.entries()[page].stored_bytes;
   return sections;
 }
 
@@ -92,6 +95,7 @@ Json layers_json(const FileParts& parts) {
 std::string layers_line(const FileParts& parts) {
   std::string bytes, saved;
   for (const LayerRow& row : layer_rows(parts)) {
+    if (row.layer == kAttributeLayer && !row.is_there) continue;  // most files have none
     bytes += bytes.empty() ? "" : ", ";
     bytes += row.is_there ? row.name + " " + short_bytes(row.bytes) : "no " + row.name;
     if (!row.min_budget_saved) continue;

@@ -16,6 +16,7 @@ struct Sections {
   std::uint64_t distance_pages = 0;
   std::uint64_t cap_pages = 0;
   std::uint64_t field_pages = 0;
+  std::uint64_t attribute_pages = 0;
   std::uint64_t mask_pages = 0;
 
   std::uint64_t side_pages() const { return cap_pages + mask_pages; }

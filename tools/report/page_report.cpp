@@ -64,6 +64,13 @@ Json mask_head_json(const octree::MaskPageHead& head) {
           {"block_link_count", head.block_link_count}};
 }
 
+Json attribute_head_json(const octree::AttributePageHead& head) {
+  return {{"page_number", head.page_number},
+          {"ordinal", head.ordinal},
+          {"octcode", fmt::format("0x{:016x}", head.octcode)},
+          {"triangle_count", head.triangle_count}};
+}
+
 Json field_head_json(const octree::FieldPageHead& head) {
   return {{"page_number", head.page_number},
           {"ordinal", head.ordinal},
@@ -129,6 +136,7 @@ std::string numbers_text(const Json& vector) {
 std::string_view kind_of(const PageRow& row) {
   if (row.mask) return "mask";
   if (row.field) return "field";
+  if (row.attributes) return "attributes";
   return row.is_of_caps ? "caps" : "distance";
 }
 
@@ -151,6 +159,10 @@ std::string page_line(const PageRow& row) {
     return fmt::format("{} {:>32} {:>9} {:>9}\n", key,
                        fmt::format("field of {} points", row.field->point_count), entry.raw_bytes,
                        entry.stored_bytes);
+  if (row.attributes)
+    return fmt::format("{} {:>32} {:>9} {:>9}\n", key,
+                       fmt::format("attributes of {}", row.attributes->triangle_count),
+                       entry.raw_bytes, entry.stored_bytes);
   if (!row.head)
     return fmt::format("{} {:>32} {:>9} {:>9}\n", key, "unreadable", entry.raw_bytes,
                        entry.stored_bytes);
@@ -162,10 +174,12 @@ std::string page_line(const PageRow& row) {
 }
 
 Json page_json(const PageRow& row) {
-  Json json = {{"page", row.number}, {"readable", row.head || row.mask || row.field}};
+  Json json = {{"page", row.number},
+               {"readable", row.head || row.mask || row.field || row.attributes}};
   json.update(entry_json(row.entry));
   if (row.mask) json["mask_cells"] = row.mask->record_count;
   if (row.field) json["field_points"] = row.field->point_count;
+  if (row.attributes) json["attribute_triangles"] = row.attributes->triangle_count;
   if (json["readable"]) json["kind"] = kind_of(row);
   if (!row.head) return json;
   const octree::PageHead& head = *row.head;
@@ -189,6 +203,11 @@ Json page_details(const FileParts& parts, const PageRow& row, bool decoded) {
   if (row.field) {
     details["head"] = field_head_json(*row.field);
     details["streams"] = rows_json(stream_rows(*row.field));
+  }
+  if (row.attributes) {
+    details["head"] = attribute_head_json(*row.attributes);
+    details["streams"] =
+        rows_json(stream_rows(*row.attributes, query::attribute_shape(parts.header()->model)));
   }
   if (row.head && decoded) details["nodes"] = nodes_json(parts, false);
   return details;

@@ -14,7 +14,8 @@ StreamRow row(std::string_view name, StreamGroup group, const octree::ByteSplit<
 
 std::string_view group_name(StreamGroup group) {
   static constexpr std::array<std::string_view, kStreamGroupCount> kNames = {
-      "heads", "nodes", "blocks", "corners", "vertices", "ids", "mask", "mask_lists", "field"};
+      "heads", "nodes", "blocks",     "corners", "vertices",
+      "ids",   "mask",  "mask_lists", "field",   "attributes"};
   return kNames[static_cast<std::size_t>(group)];
 }
 
@@ -56,6 +57,19 @@ std::vector<StreamRow> stream_rows(const octree::FieldPageHead& head) {
           {"x_steps", StreamGroup::kField, points, bytes},
           {"y_steps", StreamGroup::kField, points, bytes},
           {"z_steps", StreamGroup::kField, points, bytes}};
+}
+
+std::vector<StreamRow> stream_rows(const octree::AttributePageHead& head,
+                                   octree::AttributeShape shape) {
+  using Shape = octree::AttributeShape;
+  constexpr StreamGroup kGroup = StreamGroup::kAttributes;
+  const std::uint64_t count = head.triangle_count;
+  std::vector<StreamRow> rows = {{"attribute_page_head", StreamGroup::kHead, 1, sizeof head},
+                                 {"links", kGroup, count, count * Shape::kLinkBytes}};
+  if (shape.has_colors()) rows.push_back({"colours", kGroup, count, count * Shape::kColorBytes});
+  if (shape.has_uvs()) rows.push_back({"uvs", kGroup, 6 * count, count * Shape::kUvBytes});
+  if (shape.has_values()) rows.push_back({"values", kGroup, count, count * Shape::kValueBytes});
+  return rows;
 }
 
 std::vector<StreamRow> stream_rows(const octree::MaskStreams& streams,

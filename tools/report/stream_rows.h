@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "octree/attributes/attribute_page.h"
 #include "octree/field/field_page.h"
 #include "octree/page/mask_streams.h"
 #include "octree/page/page_streams.h"
@@ -18,11 +19,12 @@ enum class StreamGroup : std::uint8_t {
   kCorners,
   kVertices,
   kIds,
-  kMask,       ///< streams of mask pages other than lists
-  kMaskLists,  ///< lists of blocks in mask pages
-  kField,      ///< streams of field pages
+  kMask,        ///< streams of mask pages other than lists
+  kMaskLists,   ///< lists of blocks in mask pages
+  kField,       ///< streams of field pages
+  kAttributes,  ///< streams of attribute pages
 };
-inline constexpr std::size_t kStreamGroupCount = 9;
+inline constexpr std::size_t kStreamGroupCount = 10;
 /// The group's name in reports.
 [[nodiscard]] std::string_view group_name(StreamGroup group);
 
@@ -41,6 +43,9 @@ struct StreamRow {
                                                  const octree::BlockShape& shape);
 /// The same for a field page.
 [[nodiscard]] std::vector<StreamRow> stream_rows(const octree::FieldPageHead& head);
+/// The same for an attribute page.
+[[nodiscard]] std::vector<StreamRow> stream_rows(const octree::AttributePageHead& head,
+                                                 octree::AttributeShape shape);
 /// The same for a mask page.
 [[nodiscard]] std::vector<StreamRow> stream_rows(const octree::MaskStreams& streams,
                                                  const octree::BlockShape& shape);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "query/answer/model_geometry.h"
+#include "tools/cli/attribute_option.h"
 #include "tools/cli/file_text.h"
 #include "tools/cli/size_text.h"
 #include "tools/report/layer_report.h"
@@ -70,8 +71,9 @@ std::string mask_text(const FileSurvey& survey, const Sections& sections, std::u
       grouped_count(sum.special), share(sections.mask_pages, triangles));
 }
 
-std::array<const std::vector<StreamRow>*, 4> streams_of(const FileSurvey& survey) {
-  return {&survey.streams, &survey.cap_streams, &survey.field_streams, &survey.mask_streams};
+std::array<const std::vector<StreamRow>*, 5> streams_of(const FileSurvey& survey) {
+  return {&survey.streams, &survey.cap_streams, &survey.field_streams, &survey.attribute_streams,
+          &survey.mask_streams};
 }
 
 std::array<std::uint64_t, kStreamGroupCount> bytes_by_group(const FileSurvey& survey) {
@@ -99,6 +101,7 @@ Json bytes_json(const FileParts& parts, const FileSurvey& survey) {
           {"distance_pages", sections.distance_pages},
           {"cap_pages", sections.cap_pages},
           {"field_pages", sections.field_pages},
+          {"attribute_pages", sections.attribute_pages},
           {"mask_pages", sections.mask_pages},
           {"within_pages", raw},
           {"within_pages_by_stream", streams}};
@@ -238,6 +241,7 @@ Json summary_json(const FileParts& parts, const FileSurvey& survey) {
                {"format_version", header.version},
                {"content_id", content_id_text(header.content_id)},
                {"field", field_json(model)},
+               {"attributes", attribute_words(model.attributes)},
                {"mask", mask_row_json(mask_sum(survey))},
                {"special_configurations", mask_sum(survey).special},
                {"lists_of_blocks", survey.lists},
@@ -274,15 +278,21 @@ std::string summary_text(const std::string& name, const FileParts& parts,
       model.height, grouped_count(model.node_count), grouped_count(model.block_count),
       grouped_count(survey.height_fields), share(model.triangle_count, model.block_count));
   text += field_text(model);
+  if (model.attributes != 0)
+    text += fmt::format("  attributes  {}\n", fmt::join(attribute_words(model.attributes), ", "));
   text += mask_text(survey, sections, model.triangle_count);
   text += fmt::format(
       "  file        {}, {:.2f} bytes a triangle: headers {}, page table {}, distance pages {}, {}"
-      "field pages {}, mask pages {}\n",
+      "field pages {}, {}mask pages {}\n",
       short_bytes(parts.actual_bytes()), share(header.file_bytes, model.triangle_count),
       short_bytes(sections.headers), short_bytes(sections.page_table),
       short_bytes(sections.distance_pages),
       model.cap_count > 0 ? fmt::format("cap pages {}, ", short_bytes(sections.cap_pages)) : "",
-      short_bytes(sections.field_pages), short_bytes(sections.mask_pages));
+      short_bytes(sections.field_pages),
+      model.attributes != 0
+          ? fmt::format("attribute pages {}, ", short_bytes(sections.attribute_pages))
+          : "",
+      short_bytes(sections.mask_pages));
   text += layers_line(parts);
   text += fmt::format("  pages       {}, {} each in memory; {}\n", grouped_count(header.page_count),
                       short_bytes(header.page_bytes), raw_text(survey));

@@ -177,8 +177,8 @@ bool TraceDecoder::take_page() {
   std::uint64_t page = 0, octcode = 0, section = 0, stored = 0;
   if (!take_varint(page) || !take(8, octcode) || !take(1, section) || !take_varint(stored))
     return false;
-  if (page >= page_count_ || section > static_cast<std::uint64_t>(PageAccess::Section::kMask) ||
-      stored > UINT32_MAX)
+  if (page >= page_count_ ||
+      section > static_cast<std::uint64_t>(PageAccess::Section::kAttributes) || stored > UINT32_MAX)
     return false;
   pages_.push_back({static_cast<std::uint32_t>(page), static_cast<std::uint32_t>(stored), octcode,
                     static_cast<PageAccess::Section>(section)});

@@ -107,6 +107,9 @@ struct Forgery {
   /// The raw bytes of a field page; numbers start at the first of them.
   std::function<void(std::uint32_t page, std::vector<std::byte>&)> field =
       [](std::uint32_t, std::vector<std::byte>&) {};
+  /// The raw bytes of an attribute page; numbers start at the first of them.
+  std::function<void(std::uint32_t page, std::vector<std::byte>&)> attributes =
+      [](std::uint32_t, std::vector<std::byte>&) {};
   /// A page of the mask; numbers start at its first page.
   std::function<void(std::uint32_t page, octree::RawMaskPage&)> mask = [](std::uint32_t,
                                                                           octree::RawMaskPage&) {};
@@ -129,11 +132,15 @@ inline void forge(const std::filesystem::path& from, const std::filesystem::path
   cap_shape.moments = true;
   const std::uint32_t first_cap_page = file->header().first_cap_page();
   const std::uint32_t first_field_page = file->header().first_field_page();
+  const std::uint32_t first_attribute_page = file->header().first_attribute_page();
   const std::uint32_t first_mask_page = file->header().first_mask_page();
   const auto changed = [&](std::uint32_t page, const std::vector<std::byte>& raw) {
     if (page >= first_field_page && page < first_mask_page) {
       std::vector<std::byte> bytes = raw;
-      forgery.field(page - first_field_page, bytes);
+      if (page < first_attribute_page)
+        forgery.field(page - first_field_page, bytes);
+      else
+        forgery.attributes(page - first_attribute_page, bytes);
       return bytes;
     }
     if (page < first_field_page) {
@@ -152,7 +159,8 @@ inline void forge(const std::filesystem::path& from, const std::filesystem::path
     std::vector<std::byte> raw(entry.raw_bytes);
     ASSERT_TRUE(file->read_page(page, scratch, raw));
     if (page == first_cap_page && page < first_field_page) writer->begin_caps();
-    if (page == first_field_page && page < first_mask_page) writer->begin_field();
+    if (page == first_field_page && page < first_attribute_page) writer->begin_field();
+    if (page == first_attribute_page && page < first_mask_page) writer->begin_attributes();
     if (page == first_mask_page) writer->begin_mask();
     const std::vector<std::byte> bytes = changed(page, raw);
     storage::StoredPage stored = storage::compress_page(bytes);

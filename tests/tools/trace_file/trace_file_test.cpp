@@ -182,7 +182,7 @@ TEST_F(ForgedTraceFile, IsRefusedIfItsRecordsAreNot) {
   const std::string wrong[] = {
       bytes({2}) + page.substr(1) + bytes({0, 0}),        // a page is missing
       bytes({1, 9, 0, 0, 0, 0, 0, 0, 0, 0, 3, 9, 0, 0}),  // page beyond the model
-      bytes({1, 8, 0, 0, 0, 0, 0, 0, 0, 0, 4, 9, 0, 0}),  // section
+      bytes({1, 8, 0, 0, 0, 0, 0, 0, 0, 0, 5, 9, 0, 0}),  // section
       page + bytes({0, 2}),                               // page not described
       page + bytes({10, 0}),                              // event
       page + bytes({128, 0}),                             // tag
