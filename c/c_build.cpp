@@ -20,6 +20,8 @@ BuildOptions options_of(const planetree_build_options* given) {
                  : given->side_rule == PLANETREE_RULE_SURFACE ? SideChoice::kSurface
                                                               : SideChoice::kAuto;
   if (given->temp_directory) options.temp_directory = given->temp_directory;
+  options.keep = given->keep;
+  if (given->value_property) options.value_property = given->value_property;
   options.resume = given->resume;
   options.strict = given->strict;
   options.replace = given->replace;

@@ -109,6 +109,8 @@ void planetree_model_info(const planetree_model* model, planetree_info* info) no
   info->pages = of.pages;
   info->page_bytes = of.page_bytes;
   info->file_bytes = of.file_bytes;
+  info->attributes = of.attributes;
+  info->value_kind = static_cast<uint32_t>(of.value_kind);
 }
 
 void planetree_model_stats(const planetree_model* model, planetree_stats* stats) noexcept {
@@ -116,6 +118,15 @@ void planetree_model_stats(const planetree_model* model, planetree_stats* stats)
   *stats = {of.page_hits,     of.page_misses,       of.pages_read,
             of.pages_evicted, of.quarantined_pages, of.degraded_answers,
             of.frames,        of.budget_bytes,      of.locked_bytes};
+}
+
+uint32_t planetree_read_triangles(const planetree_model* model, const uint64_t* indices,
+                                  size_t count, planetree_triangle* triangles,
+                                  planetree_error* error) noexcept {
+  const auto read =
+      model->model.triangles(std::span(indices, count), std::span(&written(triangles), count));
+  if (!read) return fail(read.error(), error);
+  return PLANETREE_OK;
 }
 
 uint32_t planetree_create_probe(const planetree_model* model, planetree_probe** probe,

@@ -3,6 +3,8 @@
 #include <cstring>
 #include <limits>
 
+#include "planetree/layers.h"
+
 namespace planetree::c {
 
 static_assert(PLANETREE_CANCELLED == static_cast<int>(ErrorCode::kCancelled));
@@ -14,6 +16,11 @@ static_assert(PLANETREE_RULE_SURFACE == static_cast<int>(SideRule::kSurface));
 static_assert(PLANETREE_TOWARD_QUERY == static_cast<int>(NormalRule::kTowardQuery));
 static_assert(PLANETREE_NO_TRIANGLE == kNoTriangle && PLANETREE_NOWHERE == Error::kNowhere);
 static_assert(PLANETREE_NO_LIMIT == QueryOptions::kNoLimit);
+static_assert((PLANETREE_KEEP_TRIANGLES | PLANETREE_KEEP_COLOR | PLANETREE_KEEP_UV |
+               PLANETREE_KEEP_VALUE) == kAllAttributes);
+static_assert(PLANETREE_VALUE_REAL == static_cast<int>(ValueKind::kReal));
+static_assert((PLANETREE_DISTANCE_LAYER | PLANETREE_SIDE_LAYER | PLANETREE_FIELD_LAYER |
+               PLANETREE_ATTRIBUTE_LAYER) == kAllLayers);
 static_assert((PLANETREE_DISTANCE | PLANETREE_SIDE | PLANETREE_NORMAL) == kAllParts);
 
 QueryOptions options_of(const planetree_query_options* given) {

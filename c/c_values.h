@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "planetree/attributes.h"
 #include "planetree/c.h"
 #include "planetree/contact.h"
 #include "planetree/error.h"
@@ -50,6 +51,11 @@ static_assert(offsetof(planetree_ray, t_max) == offsetof(Ray, t_max));
 static_assert(kHaveOneSize<planetree_sweep, Sweep>);
 static_assert(offsetof(planetree_sweep, radius) == offsetof(Sweep, radius));
 
+static_assert(kHaveOneSize<planetree_triangle, MeshTriangle>);
+static_assert(offsetof(planetree_triangle, colors) == offsetof(MeshTriangle, colors));
+static_assert(offsetof(planetree_triangle, uvs) == offsetof(MeshTriangle, uvs));
+static_assert(offsetof(planetree_triangle, value) == offsetof(MeshTriangle, value));
+
 /// Return what the caller of the C interface sees as one of its structs.
 inline ClosestPoint& written(planetree_closest_point* answer) {
   return *reinterpret_cast<ClosestPoint*>(answer);
@@ -57,6 +63,9 @@ inline ClosestPoint& written(planetree_closest_point* answer) {
 inline RayHit& written(planetree_hit* hit) { return *reinterpret_cast<RayHit*>(hit); }
 inline FirstContact& written(planetree_first_contact* contact) {
   return *reinterpret_cast<FirstContact*>(contact);
+}
+inline MeshTriangle& written(planetree_triangle* triangle) {
+  return *reinterpret_cast<MeshTriangle*>(triangle);
 }
 inline const Ray* read(const planetree_ray* ray) { return reinterpret_cast<const Ray*>(ray); }
 inline const Sweep* read(const planetree_sweep* sweep) {

@@ -27,6 +27,20 @@ static bool count_calls(void* context, const char* phase, uint64_t done, uint64_
   return true;
 }
 
+static void read_triangles(const planetree_model* model) {
+  const uint64_t indices[2] = {7, 2}, none = 12;
+  planetree_triangle triangles[2];
+  planetree_error error;
+  CHECK(planetree_read_triangles(model, indices, 2, triangles, &error) == PLANETREE_OK);
+  for (int i = 0; i < 2; ++i)
+    for (int k = 0; k < 3; ++k) {
+      const double* const vertex = kVertices[kTriangles[indices[i]][k]];
+      CHECK(memcmp(triangles[i].corners[k], vertex, sizeof triangles[i].corners[k]) == 0);
+      CHECK(triangles[i].colors[k][0] == 0 && triangles[i].colors[k][3] == 255);
+    }
+  CHECK(planetree_read_triangles(model, &none, 1, triangles, &error) == PLANETREE_BAD_ARGUMENT);
+}
+
 static bool cancel(void* context, const char* phase, uint64_t done, uint64_t total) {
   (void)context, (void)phase, (void)done, (void)total;
   return false;
@@ -43,6 +57,7 @@ static void build(const char* path) {
   options.replace = true;
   options.on_progress = count_calls;
   options.context = &calls;
+  options.keep = PLANETREE_KEEP_TRIANGLES;
   CHECK(planetree_build_mesh(kVertices[0], 8, kTriangles[0], 12, path, &options, &report, &error) ==
         PLANETREE_OK);
   CHECK(report.triangles == 12 && report.unbalanced_edges == 0 && report.skipped == 0);
@@ -76,6 +91,8 @@ static planetree_model* open_model(const char* path) {
   planetree_info info;
   planetree_model_info(model, &info);
   CHECK(info.triangles == 12 && info.vertices == 8 && info.unbalanced_edges == 0);
+  CHECK(info.attributes == PLANETREE_KEEP_TRIANGLES);
+  CHECK(info.layers == (PLANETREE_DISTANCE_LAYER | PLANETREE_SIDE_LAYER | PLANETREE_ATTRIBUTE_LAYER));
   CHECK(info.box_lower[0] == 0 && info.box_upper[2] == 1 && info.file_bytes > 0);
   return model;
 }
@@ -148,6 +165,7 @@ int main(int argc, char** argv) {
   find_points(probe);
   find_sets(probe);
   find_ways(probe);
+  read_triangles(model);
   const double position[3] = {0.5, 0.25, 3}, velocity[3] = {0, 0, -1};
   planetree_note_motion(probe, position, velocity);
   planetree_stats stats;
