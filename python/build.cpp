@@ -104,6 +104,8 @@ BuildOptions options_of(const py::dict& given) {
   from.take("temp_directory", options.temp_directory);
   from.take("page_bytes", options.page_bytes);
   from.take("layers", options.layers);
+  from.take("keep", options.keep);
+  from.take("value_property", options.value_property);
   from.take("resume", options.resume);
   from.take("float64", options.float64);
   from.take("strict", options.strict);
@@ -122,14 +124,39 @@ BuildReport build_file(const std::filesystem::path& mesh, const std::filesystem:
   return RunningBuild(input, output, options_of(options)).wait(progress);
 }
 
+// The rows of an array that planetree/_attributes.py made; empty if there is none.
+template <class Row>
+std::span<const Row> rows_of(const py::dict& attributes, const char* name) {
+  if (!attributes.contains(name)) return {};
+  const auto array = py::cast<py::array>(attributes[name]);
+  const auto bytes = static_cast<std::size_t>(array.nbytes());
+  if ((array.flags() & py::array::c_style) == 0 || bytes % sizeof(Row) != 0)
+    throw py::value_error(std::string("'") + name + "' is no array of its rows");
+  return {static_cast<const Row*>(array.data()), bytes / sizeof(Row)};
+}
+
+template <class Vertex>
+BuildInput input_of(std::span<const Vertex> vertices, std::span<const TriangleVertices> triangles,
+                    const py::dict& attributes) {
+  BuildInput::Mesh<Vertex> mesh;
+  mesh.vertices = vertices;
+  mesh.triangles = triangles;
+  mesh.colors = rows_of<Color>(attributes, "colors");
+  mesh.uvs = rows_of<TextureCoordinate>(attributes, "uvs");
+  mesh.values = rows_of<std::uint64_t>(attributes, "values");
+  if (attributes.contains("value_kind"))
+    mesh.value_kind = static_cast<ValueKind>(py::cast<std::uint8_t>(attributes["value_kind"]));
+  return mesh;
+}
+
 BuildReport build_arrays(const py::array& vertices, const py::array& faces,
-                         const std::filesystem::path& output, const py::dict& options,
-                         const py::object& progress) {
+                         const py::dict& attributes, const std::filesystem::path& output,
+                         const py::dict& options, const py::object& progress) {
   const auto triangles = triples_of<TriangleVertices>("faces", faces, 'I');
   const BuildInput input =
       vertices.dtype().char_() == 'f'
-          ? BuildInput(triples_of<FloatVertex>("vertices", vertices, 'f'), triangles)
-          : BuildInput(triples_of<Vec3>("vertices", vertices, 'd'), triangles);
+          ? input_of(triples_of<FloatVertex>("vertices", vertices, 'f'), triangles, attributes)
+          : input_of(triples_of<Vec3>("vertices", vertices, 'd'), triangles, attributes);
   return RunningBuild(input, output, options_of(options)).wait(progress);
 }
 
@@ -152,6 +179,7 @@ void define_build(py::module_& module) {
       .def_readonly("openness", &BuildReport::openness)
       .def_readonly("levels", &BuildReport::levels)
       .def_readonly("layers", &BuildReport::layers)
+      .def_readonly("attributes", &BuildReport::attributes)
       .def_readonly("pages", &BuildReport::pages)
       .def_readonly("file_bytes", &BuildReport::file_bytes)
       .def_readonly("temporary_bytes", &BuildReport::temporary_bytes)

@@ -11,6 +11,7 @@
 #include "python/model_handle.h"
 #include "python/options.h"
 #include "python/queries.h"
+#include "python/triangles.h"
 
 namespace planetree::python {
 namespace {
@@ -58,6 +59,8 @@ py::dict info_of(const ModelHandle& handle) {
   told["float64"] = info.float64;
   told["levels"] = info.levels;
   told["layers"] = info.layers;
+  told["attributes"] = info.attributes;
+  told["value_kind"] = static_cast<unsigned>(info.value_kind);
   told["pages"] = info.pages;
   told["page_bytes"] = info.page_bytes;
   told["file_bytes"] = info.file_bytes;
@@ -97,6 +100,7 @@ void define_model(py::module_& module) {
       .def("info", &info_of)
       .def("stats", &stats_of);
   define_queries(model);
+  define_triangles(model);
 }
 
 }  // namespace planetree::python

@@ -44,8 +44,17 @@ py::dict enum_values() {
                                       {"SURFACE", SideRule::kSurface}});
   all["NormalRule"] = values<NormalRule>(
       {{"OUTWARD", NormalRule::kOutward}, {"TOWARD_QUERY", NormalRule::kTowardQuery}});
-  all["Layers"] = values<std::uint32_t>(
-      {{"DISTANCE", kDistanceLayer}, {"SIDE", kSideLayer}, {"FIELD", kFieldLayer}});
+  all["Layers"] = values<std::uint32_t>({{"DISTANCE", kDistanceLayer},
+                                         {"SIDE", kSideLayer},
+                                         {"FIELD", kFieldLayer},
+                                         {"ATTRIBUTES", kAttributeLayer}});
+  all["Attributes"] = values<std::uint32_t>({{"TRIANGLES", kKeepTriangles},
+                                             {"COLOR", kKeepColor},
+                                             {"UV", kKeepUv},
+                                             {"VALUE", kKeepValue}});
+  all["ValueKind"] = values<ValueKind>({{"UNSIGNED", ValueKind::kUnsigned},
+                                        {"SIGNED", ValueKind::kSigned},
+                                        {"REAL", ValueKind::kReal}});
   all["Parts"] =
       values<std::uint32_t>({{"DISTANCE", kDistance}, {"SIDE", kSide}, {"NORMAL", kNormal}});
   all["Locking"] = values<Locking>(

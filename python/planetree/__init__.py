@@ -16,6 +16,7 @@ from ._build import build
 from ._deviation import Deviation, deviation
 from ._enums import (
     NO_TRIANGLE,
+    Attributes,
     ErrorCode,
     EvictionPolicy,
     Feature,
@@ -26,6 +27,7 @@ from ._enums import (
     Side,
     SideRule,
     Status,
+    ValueKind,
 )
 from ._grid import Grid, Slice, grid, slice_of
 from ._meshes import mesh_arrays
@@ -33,9 +35,11 @@ from ._model import Model, open
 from ._probe import Contacts, Probe
 from ._raycasting import RaycastingScene
 from ._results import FirstContacts, Hits, Result, SetHits, SetResult
+from ._triangles import Triangles
 
 __all__ = [
     "NO_TRIANGLE",
+    "Attributes",
     "BuildReport",
     "ClosestPoint",
     "Contacts",
@@ -63,6 +67,8 @@ __all__ = [
     "SideRule",
     "Slice",
     "Status",
+    "Triangles",
+    "ValueKind",
     "build",
     "deviation",
     "grid",

@@ -7,8 +7,11 @@ from typing import Any, Callable, Optional, Sequence
 
 from . import _planetree
 from ._arrays import bytes_of
-from ._enums import Layers, SideRule
+from ._attributes import Keep, array_attributes, attributes_of
+from ._enums import Attributes, Layers, SideRule
 from ._meshes import mesh_arrays
+
+_OF_ARRAYS = {"colors": Attributes.COLOR, "uvs": Attributes.UV, "values": Attributes.VALUE}
 
 
 def build(
@@ -22,6 +25,11 @@ def build(
     box: Optional[Sequence[Sequence[float]]] = None,
     side: SideRule = SideRule.OF_FILE,
     layers: int = Layers.ALL,
+    keep: Keep = 0,
+    value: str = "value",
+    colors: Any = None,
+    uvs: Any = None,
+    values: Any = None,
     resume: bool = False,
     float64: bool = False,
     strict: bool = False,
@@ -41,6 +49,12 @@ def build(
     box        two corners: build only the triangles that touch this box
     side       SideRule.SOLID or SURFACE; OF_FILE: as the mesh suggests
     layers     layers of the file
+    keep       attributes of triangles that the file keeps: Attributes, or names such as "color,uv"
+    value      the property of a PLY's faces that keep="value" reads
+    colors     (n, 3) or (n, 4): colours of the vertices of arrays, integers from 0 to 255 or floats
+               from 0 to 1. They are kept; so are the next two
+    uvs        (n, 2) or (m, 3, 2): texture coordinates of vertices, or of the corners of faces
+    values     (m,): a number for each face
     resume     keep completed work, and resume that of an earlier build
     float64    read floats of ascii PLY files as doubles
     strict     a bad record is an error; otherwise it is skipped and counted
@@ -55,6 +69,8 @@ def build(
         "page_bytes": bytes_of(page_size),
         "layers": int(layers) | Layers.DISTANCE,
         "side": int(SideRule(side)),
+        "keep": int(attributes_of(keep)),
+        "value_property": str(value),
         "resume": bool(resume),
         "float64": bool(float64),
         "strict": bool(strict),
@@ -66,7 +82,13 @@ def build(
         options["temp_directory"] = os.fspath(temp_dir)
     if box is not None:
         options["box"] = [[float(at) for at in corner] for corner in box]
+    attributes = array_attributes(colors, uvs, values)
     if isinstance(mesh, (str, os.PathLike)):
+        if attributes:
+            raise ValueError("colors=, uvs= and values= belong to arrays; a file has its own: keep=")
         return _planetree.build_file(os.fspath(mesh), os.fspath(out), options, progress)
     vertices, faces = mesh_arrays(mesh)
-    return _planetree.build_arrays(vertices, faces, os.fspath(out), options, progress)
+    for name, flag in _OF_ARRAYS.items():
+        if name in attributes:
+            options["keep"] |= int(flag)
+    return _planetree.build_arrays(vertices, faces, attributes, os.fspath(out), options, progress)

@@ -51,7 +51,25 @@ class Layers(IntFlag):
     DISTANCE = 1
     SIDE = 2
     FIELD = 4
-    ALL = 7
+    ATTRIBUTES = 8
+    ALL = 15
+
+
+class Attributes(IntFlag):
+    """What a file keeps of each triangle beside its shape."""
+
+    TRIANGLES = 1  #: where it is, so that its corners are found by its index
+    COLOR = 2  #: colours of its corners
+    UV = 4  #: texture coordinates of its corners
+    VALUE = 8  #: a number of 8 bytes
+
+
+class ValueKind(IntEnum):
+    """Type of the numbers of Attributes.VALUE."""
+
+    UNSIGNED = 0
+    SIGNED = 1
+    REAL = 2
 
 
 class Parts(IntFlag):

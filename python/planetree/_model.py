@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Dict, Tuple
+from typing import Any, Dict, Optional, Tuple
 
 import numpy as np
 
 from . import _planetree
 from ._arrays import bytes_of
 from ._deviation import Deviation, deviation
-from ._enums import EvictionPolicy, Layers, Locking, SideRule
+from ._enums import Attributes, EvictionPolicy, Layers, Locking, SideRule, ValueKind
 from ._grid import Grid, Slice, grid, slice_of
 from ._probe import Probe
 from ._queries import Queries
 from ._raycasting import RaycastingScene
+from ._triangles import Triangles, triangles
 
 
 class Model(Queries):
@@ -66,6 +67,8 @@ class Model(Queries):
             told[name] = told[name] and np.array(told[name])
         told["side_rule"] = SideRule(told["side_rule"])
         told["layers"] = Layers(told["layers"])
+        told["attributes"] = Attributes(told["attributes"])
+        told["value_kind"] = ValueKind(told["value_kind"])
         return told
 
     @property
@@ -79,6 +82,16 @@ class Model(Queries):
         It belongs to one thread. A model has max_probes of them, and calls use some meanwhile.
         """
         return Probe(_planetree.Probe(self._handle))
+
+    def triangles(self, indices: Any, progress: Optional[Any] = None) -> Triangles:
+        """Returns triangles of the mesh by their indices, with what the file keeps of them.
+
+        indices   (...) of integers, such as `triangles` of answers
+        progress  called as progress(done, count) now and then
+
+        The file must have been built with keep=...
+        """
+        return triangles(self, indices, progress)
 
     def grid(self, shape: Tuple[int, int, int], **arguments: Any) -> Grid:
         """Samples the model at the points of a grid. See planetree.grid."""

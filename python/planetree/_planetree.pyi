@@ -72,6 +72,7 @@ class BuildReport:
     openness: float
     levels: int
     layers: int
+    attributes: int
     pages: int
     file_bytes: int
     temporary_bytes: int
@@ -107,8 +108,16 @@ class Model:
     def contacts(self, *arguments: Any) -> None: ...
     def nearest_triangles(self, *arguments: Any) -> None: ...
     def triangles_within(self, *arguments: Any) -> None: ...
+    def triangles(
+        self, indices: np.ndarray, outputs: Dict[str, np.ndarray], progress: Any
+    ) -> None: ...
 
 def build_file(mesh: str, output: str, options: Dict[str, Any], progress: Any) -> BuildReport: ...
 def build_arrays(
-    vertices: np.ndarray, faces: np.ndarray, output: str, options: Dict[str, Any], progress: Any
+    vertices: np.ndarray,
+    faces: np.ndarray,
+    attributes: Dict[str, Any],
+    output: str,
+    options: Dict[str, Any],
+    progress: Any,
 ) -> BuildReport: ...
