@@ -28,7 +28,9 @@ constexpr Fields kModelFields[] = {{offsetof(ModelRecord, triangle_count), 8, 6}
                                    {offsetof(ModelRecord, mask_levels), 1, 1},
                                    {offsetof(ModelRecord, input_triangles), 8, 8},
                                    {offsetof(ModelRecord, field_lower), 8, 5},
-                                   {offsetof(ModelRecord, field_size), 4, 4}};
+                                   {offsetof(ModelRecord, field_size), 4, 4},
+                                   {offsetof(ModelRecord, attribute_page_count), 4, 1},
+                                   {offsetof(ModelRecord, attributes), 1, 2}};
 
 }  // namespace
 

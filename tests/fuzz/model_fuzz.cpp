@@ -113,6 +113,22 @@ void query_points(const Model& model, Probe& probe, const std::vector<Vec3>& poi
   for (const ClosestPoint& answer : answers) check(answer, options);
 }
 
+/// Triangles by their indices: each is found, or a reason is given.
+void read_triangles(const Model& model) {
+  const ModelInfo& info = model.info();
+  for (const std::uint64_t index : {std::uint64_t{0}, std::uint64_t{1}, info.triangles / 2,
+                                    info.triangles - 1, info.triangles + 5, kNoTriangle}) {
+    const auto triangle = model.triangle(index);
+    if (!triangle) {
+      expect(triangle.error().text[0] != 0);
+      continue;
+    }
+    expect(info.attributes != 0);
+    for (const Vec3& corner : triangle->corners) expect(is_number(corner));
+    [[maybe_unused]] const volatile std::uint8_t red = triangle->color_at({0.5, 0.25, 0.25}).red;
+  }
+}
+
 /// Rays and moving balls from each point to another.
 void query_ways(const Model& model, Probe& probe, const std::vector<Vec3>& points,
                 const QueryOptions& options) {
@@ -180,10 +196,9 @@ void open_and_query(const std::filesystem::path& path) {
   options.locking = Locking::kNever;
   options.use_io_uring = false;
   const Result<Model> model = Model::open(path, options);
-  if (model)
-    query(*model);
-  else
-    expect(model.error().text[0] != 0);
+  if (!model) return expect(model.error().text[0] != 0);
+  read_triangles(*model);
+  query(*model);
 }
 
 }  // namespace
