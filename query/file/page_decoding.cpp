@@ -56,7 +56,8 @@ octree::AttributeShape attribute_shape(const storage::ModelRecord& model) noexce
 }
 
 std::uint32_t attribute_triangles(const storage::FileHeader& header, std::uint32_t page) noexcept {
-  const std::uint64_t in_page = header.triangles_per_attribute_page();
+  // Of the shape that is decoded, which has links even where a damaged header says otherwise.
+  const std::uint64_t in_page = attribute_shape(header.model).triangles_per_page(header.page_bytes);
   const std::uint64_t before = in_page * (page - header.first_attribute_page());
   return static_cast<std::uint32_t>(std::min(in_page, header.model.index_count() - before));
 }
