@@ -146,8 +146,7 @@ int Inspection::show_nodes() {
                  {"cell", cell_text(entry.octcode)},
                  {"ordinal", entry.ordinal},
                  {"nodes", Json::array()}};
-    std::optional<Issue> issue = parts_.read_page(page);
-    if (!issue) issue = parts_.decode_page();
+    std::optional<Issue> issue = parts_.load_page(page);
     if (issue)
       issues.add(*issue);
     else

@@ -18,8 +18,7 @@ class AttributeCheck {
 
   // Returns whether the page is sound.
   bool check_page(std::uint32_t page) {
-    std::optional<Issue> issue = parts_.read_page(page);
-    if (!issue) issue = parts_.decode_page();
+    std::optional<Issue> issue = parts_.load_page(page);
     if (!issue) return true;
     issues_.add(*std::move(issue));
     return false;

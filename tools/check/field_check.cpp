@@ -59,8 +59,7 @@ class FieldCheck {
 
   // Returns whether the page is sound.
   bool check_page(std::uint32_t page) {
-    std::optional<Issue> issue = parts_.read_page(page);
-    if (!issue) issue = parts_.decode_page();
+    std::optional<Issue> issue = parts_.load_page(page);
     const bool is_sound = !issue;
     if (issue) issues_.add(*std::move(issue));
     if (is_sound && proof_) prove(page);

@@ -77,6 +77,12 @@ class FileParts {
   /// Decodes the page read last to its frame. Empty if sound.
   std::optional<Issue> decode_page();
 
+  /// Reads a page and decodes it. Empty if sound.
+  std::optional<Issue> load_page(std::uint32_t page) {
+    std::optional<Issue> issue = read_page(page);
+    return issue ? issue : decode_page();
+  }
+
   /// Raw bytes of the page read last. Valid until the next read.
   std::span<const std::byte> raw() const { return raw_; }
   /// Splits the raw bytes of a distance page or a cap page into streams. False if they do not fit

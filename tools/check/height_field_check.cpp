@@ -20,8 +20,7 @@ class HeightFieldCheck {
 
   void run() {
     for (std::uint32_t page = 0; page < parts_.first_cap_page(); ++page) {
-      std::optional<Issue> issue = parts_.read_page(page);
-      if (!issue) issue = parts_.decode_page();
+      std::optional<Issue> issue = parts_.load_page(page);
       if (issue) return issues_.add(*std::move(issue));
       const FrameView frame = parts_.frame();
       frame.for_each_block([&](std::uint32_t, std::uint32_t slot) {

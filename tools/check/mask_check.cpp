@@ -44,8 +44,7 @@ void check_mask(FileParts& parts, bool prove, CheckReport& report, const CheckPr
       [&](Issue issue) { report.issues.add(std::move(issue)); });
   bool complete = true;
   for (std::uint32_t page = parts.first_mask_page(); page < parts.page_count(); ++page) {
-    std::optional<Issue> issue = parts.read_page(page);
-    if (!issue) issue = parts.decode_page();
+    std::optional<Issue> issue = parts.load_page(page);
     complete = complete && !issue;
     if (issue) {
       report.issues.add(*std::move(issue));

@@ -117,8 +117,7 @@ bool TreeCheck::run(const CheckProgress& progress) {
 
 void TreeCheck::check_page(std::uint32_t page) {
   page_ = page;
-  std::optional<Issue> issue = parts_.read_page(page);
-  if (!issue) issue = parts_.decode_page();
+  std::optional<Issue> issue = parts_.load_page(page);
   if (issue) {
     report_.issues.add(*std::move(issue));
     complete_ = false;

@@ -35,8 +35,7 @@ class Surveyor {
 
  private:
   void survey_page(PageRow& row) {
-    std::optional<Issue> issue = parts_.read_page(row.number);
-    if (!issue) issue = parts_.decode_page();
+    std::optional<Issue> issue = parts_.load_page(row.number);
     const bool mask = row.number >= parts_.first_mask_page();
     if (parts_.is_field_page(row.number)) return survey_field_page(row, std::move(issue));
     if (parts_.is_attribute_page(row.number)) return survey_attributes(row, std::move(issue));
