@@ -21,9 +21,7 @@ bool leads_to_block(std::uint32_t link, const PageInfo& info) {
 }
 
 const char* check_head(const AttributePageHead& head, const PageInfo& info, std::uint32_t count) {
-  if (head.page_number != info.page_number) return "it is another page's bytes";
-  if (head.octcode != info.octcode || head.ordinal != info.ordinal)
-    return "its key is not the page table's";
+  if (const char* const fault = fault_of_key(head, info)) return fault;
   if (head.octcode != 0 || head.ordinal != info.page_number - info.first_page)
     return "its key is not that of its triangles";
   if (head.triangle_count != count) return "it has not as many triangles as it should have";

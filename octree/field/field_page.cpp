@@ -13,9 +13,7 @@ const char* decode(std::span<const std::byte> raw, const PageInfo& info,
   FieldPageHead head;
   if (raw.size() < sizeof head) return "the page is shorter than its head";
   std::memcpy(&head, raw.data(), sizeof head);
-  if (head.page_number != info.page_number) return "it is another page's bytes";
-  if (head.octcode != info.octcode || head.ordinal != info.ordinal)
-    return "its key is not the page table's";
+  if (const char* const fault = fault_of_key(head, info)) return fault;
   if (head.octcode != 0 || head.ordinal != info.page_number - info.first_page)
     return "its key is not that of its points";
   if (head.point_count != points.size()) return "it has not as many points as the grid";

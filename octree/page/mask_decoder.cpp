@@ -23,9 +23,7 @@ class MaskDecoder {
 
   const char* decode(std::span<const std::byte> raw) {
     if (const char* fault = streams_.read(raw, info_.shape.float64)) return fault;
-    if (head().page_number != info_.page_number) return "it is another page's bytes";
-    if (head().octcode != info_.octcode || head().ordinal != info_.ordinal)
-      return "its key is not the page table's";
+    if (const char* fault = fault_of_key(head(), info_)) return fault;
     if (const char* fault = write_header()) return fault;
     next_family_ = head().root_count;
     for (std::size_t i = 0; i < head().record_count; ++i)

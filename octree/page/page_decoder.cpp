@@ -29,10 +29,7 @@ class PageDecoder {
 
   const char* decode(std::span<const std::byte> raw) {
     if (const char* fault = streams_.read(raw, info_.shape)) return fault;
-    const PageHead& head = streams_.head;
-    if (head.page_number != info_.page_number) return "it is another page's bytes";
-    if (head.octcode != info_.octcode || head.ordinal != info_.ordinal)
-      return "its key is not the page table's";
+    if (const char* fault = fault_of_key(streams_.head, info_)) return fault;
     if (const char* fault = plan()) return fault;
     write_header();
     if (const char* fault = decode_nodes()) return fault;

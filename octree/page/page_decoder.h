@@ -23,6 +23,16 @@ struct PageInfo {
   std::uint32_t ordinal = 0;
 };
 
+/// Compares the number and the key in the head of a page, of any kind, with those of its entry in
+/// the page table. Returns null, or a fault.
+template <class Head>
+const char* fault_of_key(const Head& head, const PageInfo& info) noexcept {
+  if (head.page_number != info.page_number) return "it is another page's bytes";
+  if (head.octcode != info.octcode || head.ordinal != info.ordinal)
+    return "its key is not the page table's";
+  return nullptr;
+}
+
 /// Unpacks the raw bytes of a distance page into its frame (octree/page/frame.h).
 ///
 /// raw      arbitrary bytes; everything in them is checked before it is used
