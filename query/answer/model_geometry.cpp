@@ -50,8 +50,9 @@ octree::MaskInfo mask_info(const storage::FileHeader& header, const OpenLayers& 
 
 AttributePages attribute_pages(const storage::FileHeader& header, const OpenLayers& opened) {
   if (!opened.has_attributes()) return {};
-  return {attribute_shape(header.model), header.first_attribute_page(),
-          header.triangles_per_attribute_page(), header.model.index_count()};
+  const octree::AttributeShape shape = attribute_shape(header.model);
+  return {shape, header.first_attribute_page(), shape.triangles_per_page(header.page_bytes),
+          header.model.index_count()};
 }
 
 }  // namespace

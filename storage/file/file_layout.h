@@ -188,10 +188,6 @@ struct FileHeader {
     const std::uint32_t end = first_field_page();
     return end - (model.cap_page_count < end ? model.cap_page_count : end);
   }
-  /// Number of triangles in an attribute page; the last may have fewer. The file has attributes.
-  [[nodiscard]] std::uint32_t triangles_per_attribute_page() const noexcept {
-    return (page_bytes - kAttributeHeadBytes) / model.attribute_bytes();
-  }
 };
 static_assert(sizeof(FileHeader) == kHeaderBytes);
 static_assert(offsetof(FileHeader, model) == 80);

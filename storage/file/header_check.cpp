@@ -129,7 +129,8 @@ std::uint64_t field_pages(const FileHeader& header) noexcept {
 // Number of pages that the attributes take; more than any file has if the indices are too many.
 std::uint64_t attribute_pages(const FileHeader& header) noexcept {
   if (header.model.attributes == 0) return 0;
-  const std::uint64_t in_page = header.triangles_per_attribute_page();
+  const std::uint64_t in_page =
+      (header.page_bytes - kAttributeHeadBytes) / header.model.attribute_bytes();
   return (header.model.index_count() - 1) / in_page + 1;
 }
 
