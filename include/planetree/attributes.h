@@ -52,6 +52,14 @@ enum class ValueKind : std::uint8_t {
   kReal       ///< double
 };
 
+/// Returns a value of kKeepValue, given by its bits, as a double. A whole number above 2^53 is
+/// rounded.
+inline double real_value(std::uint64_t bits, ValueKind kind) noexcept {
+  if (kind == ValueKind::kReal) return std::bit_cast<double>(bits);
+  return kind == ValueKind::kSigned ? static_cast<double>(static_cast<std::int64_t>(bits))
+                                    : static_cast<double>(bits);
+}
+
 /// A triangle of the mesh by its index, and what the file keeps of it: see Model::triangle. What it
 /// does not keep is as it is here.
 struct MeshTriangle {
@@ -82,11 +90,7 @@ struct MeshTriangle {
   /// Returns the value as a double. A whole number above 2^53 is rounded.
   ///
   /// kind  ModelInfo::value_kind
-  double real_value(ValueKind kind) const noexcept {
-    if (kind == ValueKind::kReal) return std::bit_cast<double>(value);
-    return kind == ValueKind::kSigned ? static_cast<double>(static_cast<std::int64_t>(value))
-                                      : static_cast<double>(value);
-  }
+  double real_value(ValueKind kind) const noexcept { return planetree::real_value(value, kind); }
 };
 
 }  // namespace planetree

@@ -167,12 +167,6 @@ std::uint64_t load_value(ScalarType type, const std::byte* at, bool swap) {
   return std::bit_cast<std::uint64_t>(load_integer(type, at, swap));
 }
 
-double real_of(std::uint64_t value, ValueKind kind) {
-  if (kind == ValueKind::kReal) return std::bit_cast<double>(value);
-  if (kind == ValueKind::kSigned) return static_cast<double>(std::bit_cast<std::int64_t>(value));
-  return static_cast<double>(value);
-}
-
 void add_uv_note(const RecordNote& wrong, std::vector<std::string>& notes) {
   if (!wrong) return;
   notes.push_back(counted(wrong.count(), "face") +

@@ -60,8 +60,6 @@ CornerAttributes vertex_attributes(const PlyHeader& header, const PlyAttributes&
 ValueKind kind_of(ScalarType type);
 /// Reads a value as TriangleAttributes has it.
 std::uint64_t load_value(ScalarType type, const std::byte* at, bool swap);
-/// The number that is nearest to a value.
-double real_of(std::uint64_t value, ValueKind kind);
 
 /// Adds the note on faces whose list of texture coordinates has a wrong length, if there are any.
 void add_uv_note(const RecordNote& wrong, std::vector<std::string>& notes);

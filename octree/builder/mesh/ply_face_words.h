@@ -34,7 +34,7 @@ class PlyFaceWords {
         channel < std::ssize(color) ? &channels_[static_cast<std::size_t>(channel)] : nullptr;
     if (property == attributes_.value) {
       if (!words.value(declared, value_)) return false;
-      if (number != nullptr) *number = real_of(value_, attributes_.value_kind);
+      if (number != nullptr) *number = real_value(value_, attributes_.value_kind);
       return true;
     }
     return number == nullptr ? words.pass(declared) : words.number(declared, *number);
