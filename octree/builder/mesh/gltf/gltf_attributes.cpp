@@ -1,6 +1,5 @@
 #include "octree/builder/mesh/gltf/gltf_attributes.h"
 
-#include <algorithm>
 #include <array>
 
 namespace planetree::octree {
@@ -11,32 +10,17 @@ constexpr Color kWhite = {255, 255, 255, 255};
 
 }  // namespace
 
-double largest_integer(ScalarType type) {
-  switch (type) {
-    case ScalarType::kInt8:
-      return 127;
-    case ScalarType::kUint8:
-      return 255;
-    case ScalarType::kInt16:
-      return 32767;
-    default:
-      return 65535;
-  }
-}
-
 GltfAttributeReader::Source::Source(const GltfSequence& sequence, std::size_t window_bytes)
     : type(sequence.base.type),
       width(sequence.base.width),
-      unit(sequence.is_normalized ? largest_integer(type) : 0),
+      unit(unit_of(sequence)),
       elements(sequence, window_bytes) {}
 
 bool GltfAttributeReader::Source::read(std::uint64_t element, double* numbers) {
   const std::byte* const at = elements.at(element);
   if (at == nullptr) return false;
-  for (unsigned i = 0; i < width; ++i) {
-    const double number = load_real(type, at + i * size_bytes(type), kSwapLittle);
-    numbers[i] = unit == 0 ? number : std::max(number / unit, -1.0);
-  }
+  for (unsigned i = 0; i < width; ++i)
+    numbers[i] = number_at(type, at + i * size_bytes(type), unit);
   return true;
 }
 

@@ -45,7 +45,4 @@ class GltfAttributeReader {
   std::optional<Source> colors_, uvs_;
 };
 
-/// The largest integer of a type that positions and attributes may have.
-double largest_integer(ScalarType type);
-
 }  // namespace planetree::octree

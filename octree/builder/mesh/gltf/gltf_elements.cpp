@@ -4,10 +4,28 @@ namespace planetree::octree {
 
 namespace {
 
+/// The largest integer of a type.
+double largest(ScalarType type) {
+  switch (type) {
+    case ScalarType::kInt8:
+      return 127;
+    case ScalarType::kUint8:
+      return 255;
+    case ScalarType::kInt16:
+      return 32767;
+    default:
+      return 65535;
+  }
+}
+
 constexpr std::uint64_t kNone = ~std::uint64_t{0};
 constexpr std::array<std::byte, 3 * sizeof(double)> kZeros = {};
 
 }  // namespace
+
+double unit_of(const GltfSequence& sequence) {
+  return sequence.is_normalized ? largest(sequence.base.type) : 0;
+}
 
 GltfElementReader::Source::Source(const GltfArray& elements, std::size_t window_bytes)
     : array(elements) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -10,6 +12,15 @@
 #include "planetree/error.h"
 
 namespace planetree::octree {
+
+/// What the numbers of a sequence are divided by: the largest integer of their type if they are
+/// normalized, otherwise 0 for nothing.
+double unit_of(const GltfSequence& sequence);
+/// Reads a number of an element and divides it by the unit of its sequence.
+inline double number_at(ScalarType type, const std::byte* at, double unit) {
+  const double number = load_real(type, at, kSwapLittle);
+  return unit == 0 ? number : std::max(number / unit, -1.0);
+}
 
 /// Reads the elements of an accessor, fastest where their numbers ascend.
 class GltfElementReader {

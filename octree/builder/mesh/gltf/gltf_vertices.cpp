@@ -1,7 +1,5 @@
 #include "octree/builder/mesh/gltf/gltf_vertices.h"
 
-#include <algorithm>
-
 namespace planetree::octree {
 
 bool fits_float32(ScalarType type, bool is_normalized, const GltfTransform& transform) {
@@ -14,7 +12,7 @@ GltfVertices::GltfVertices(const GltfSequence& positions, const GltfAttributes& 
       transform_(transform),
       is_identity_(transform.is_identity()),
       float32_(fits_float32(positions.base.type, positions.is_normalized, transform)),
-      unit_(positions.is_normalized ? largest_integer(positions.base.type) : 0),
+      unit_(unit_of(positions)),
       is_plain_(!kSwapLittle && is_identity_ && positions.base.file != nullptr &&
                 positions.base.type == ScalarType::kFloat32 &&
                 positions.base.stride == positions.base.element_bytes() &&
@@ -25,8 +23,7 @@ GltfVertices::GltfVertices(const GltfSequence& positions, const GltfAttributes& 
 Vec3 GltfVertices::position(const std::byte* element) const {
   const auto number = [&](std::size_t axis) {
     const ScalarType type = sequence_.base.type;
-    const double value = load_real(type, element + axis * size_bytes(type), kSwapLittle);
-    return unit_ == 0 ? value : std::max(value / unit_, -1.0);
+    return number_at(type, element + axis * size_bytes(type), unit_);
   };
   const Vec3 local{number(0), number(1), number(2)};
   return is_identity_ ? local : transform_.of(local);
