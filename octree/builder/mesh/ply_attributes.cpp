@@ -1,6 +1,5 @@
 #include "octree/builder/mesh/ply_attributes.h"
 
-#include <algorithm>
 #include <bit>
 #include <string_view>
 #include <utility>
@@ -36,11 +35,13 @@ bool find_numbers(const PlyElement& element, std::span<const Group> groups, std:
                   std::vector<std::size_t>& properties) {
   for (const Group& group : groups) {
     std::vector<std::size_t> found;
-    for (const std::string_view name : group)
-      if (const auto number = find_number(element, name)) found.push_back(*number);
-    const bool is_there = std::all_of(group.begin(), group.begin() + required, [&](auto name) {
-      return find_number(element, name).has_value();
-    });
+    bool is_there = true;
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      if (const auto number = find_number(element, group[i]))
+        found.push_back(*number);
+      else
+        is_there = is_there && i >= required;
+    }
     if (!is_there) continue;
     properties.insert(properties.end(), found.begin(), found.end());
     return true;
