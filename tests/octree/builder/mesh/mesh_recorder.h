@@ -146,6 +146,17 @@ inline Reading read_kept(std::string_view bytes, const std::string& extension, s
   return read_input(file.path(), scratch, {.keep = keep});
 }
 
+/// Reads with much memory and with little, and expects the same.
+inline Reading read_kept_twice(std::string_view bytes, const std::string& extension,
+                               std::uint32_t keep, std::uint64_t little_bytes = 0) {
+  const Reading reading = read_kept(bytes, extension, keep);
+  const Reading other = read_kept(bytes, extension, keep, little_bytes);
+  EXPECT_EQ(reading.log, other.log);
+  EXPECT_EQ(reading.error, other.error);
+  EXPECT_EQ(notes_of(reading), notes_of(other));
+  return reading;
+}
+
 /// Bytes of numbers in a given byte order.
 class Bytes {
  public:
