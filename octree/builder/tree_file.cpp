@@ -73,6 +73,19 @@ void describe_tree(const BuiltModel& built, const BuiltTree& tree, storage::Mode
   model.mask_levels = static_cast<std::uint8_t>(built.mask->levels());
 }
 
+storage::ModelRecord describe(const BuiltModel& built, const BuiltTree& tree, const CapTree& caps,
+                              const BuildOptions& options) {
+  storage::ModelRecord model{};
+  describe_mesh(built, model);
+  describe_region(built, options, model);
+  describe_side_rule(built, options, model);
+  describe_tree(built, tree, model);
+  caps.describe(model);
+  built.field.describe(model);
+  built.attributes.describe(options.page_bytes, model);
+  return model;
+}
+
 /// others  number of all other pages of the file.
 Result<std::uint32_t> count_attribute_pages(const BuiltModel& built, std::uint32_t others,
                                             const BuildOptions& options) {
@@ -143,15 +156,7 @@ Result<storage::FileHeader> write_tree(const BuiltModel& built, const BuiltTree&
   const auto masked = appender.append(
       mask_pages, [&](std::uint32_t page) { return built.mask->encode(page, first_mask_page); });
   if (!masked) return masked.error();
-  storage::ModelRecord model{};
-  describe_mesh(built, model);
-  describe_region(built, options, model);
-  describe_side_rule(built, options, model);
-  describe_tree(built, tree, model);
-  caps.describe(model);
-  built.field.describe(model);
-  built.attributes.describe(options.page_bytes, model);
-  return writer->finish(model, options.page_bytes);
+  return writer->finish(describe(built, tree, caps, options), options.page_bytes);
 }
 
 }  // namespace planetree::octree
