@@ -37,6 +37,7 @@ Result<void> check_limits(const CacheLimits& limits) noexcept {
 }
 
 std::uint32_t minimum_frame_count(const CacheLimits& limits) noexcept {
+  if (limits.is_shared) return limits.max_readers + 1;
   return std::min(limits.used_pages(), limits.max_readers + 2);
 }
 
@@ -67,15 +68,36 @@ std::uint32_t frames_within_budget(const CacheLimits& limits) noexcept {
 
 namespace {
 
-CacheTables cut_tables(const CacheLimits& limits, std::uint64_t frame_count,
-                       ArenaLayout& layout) noexcept {
+// Lays out arrays in memory that is all 0 and may not be backed yet, without touching it. Each
+// begins on a system page of its own, so that a part of one can be backed by itself.
+class UntouchedLayout {
+ public:
+  explicit UntouchedLayout(std::byte* base) noexcept : base_(base) {}
+
+  template <class T>
+  std::span<T> cut(std::uint64_t count) noexcept {
+    const std::uint64_t start = used_bytes_;
+    used_bytes_ += PrefaultedMemory::claimed_bytes(count * sizeof(T));
+    if (base_ == nullptr) return {};
+    return {reinterpret_cast<T*>(base_ + start), count};
+  }
+  std::uint64_t used_bytes() const noexcept { return used_bytes_; }
+
+ private:
+  std::byte* base_;
+  std::uint64_t used_bytes_ = 0;
+};
+
+template <class PageLayout>
+CacheTables cut_tables(const CacheLimits& limits, std::uint64_t frame_count, ArenaLayout& layout,
+                       PageLayout& page_layout) noexcept {
   const std::uint64_t page_count = limits.page_count;
   const std::uint64_t slot_count = limits.max_readers;
   const std::uint64_t fetcher_count = slot_count + 1;
   CacheTables tables;
-  tables.map = layout.cut<PageMap::Cell>(page_count);
-  tables.quarantine_bits = layout.cut<std::uint64_t>((page_count + 63) / 64);
-  tables.policy = cut_policy_tables(limits.policy, frame_count, page_count, layout);
+  tables.map = page_layout.template cut<PageMap::Cell>(page_count);
+  tables.quarantine_bits = page_layout.template cut<std::uint64_t>((page_count + 63) / 64);
+  tables.policy = cut_policy_tables(limits.policy, frame_count, page_count, layout, page_layout);
   tables.pages = layout.cut<std::uint32_t>(frame_count);
   tables.free_frames = layout.cut<std::uint32_t>(frame_count);
   tables.slots = layout.cut<ReaderSlot>(slot_count);
@@ -87,16 +109,37 @@ CacheTables cut_tables(const CacheLimits& limits, std::uint64_t frame_count,
 
 }  // namespace
 
+std::uint64_t page_tables_bytes(const CacheLimits& limits, std::uint64_t page_count) noexcept {
+  CacheLimits of_pages = limits;
+  of_pages.page_count = static_cast<std::uint32_t>(page_count);
+  ArenaLayout layout(nullptr);
+  UntouchedLayout page_layout(nullptr);
+  cut_tables(of_pages, 0, layout, page_layout);
+  return page_layout.used_bytes();
+}
+
 std::uint64_t tables_bytes(const CacheLimits& limits, std::uint32_t frame_count) noexcept {
   ArenaLayout layout(nullptr);
-  cut_tables(limits, frame_count, layout);
+  UntouchedLayout page_layout(nullptr);
+  if (limits.is_shared)
+    cut_tables(limits, frame_count, layout, page_layout);
+  else
+    cut_tables(limits, frame_count, layout, layout);
   return layout.used_bytes();
 }
 
 CacheTables make_tables(const CacheLimits& limits, std::uint32_t frame_count,
-                        const PrefaultedMemory& memory) noexcept {
+                        const PrefaultedMemory& memory,
+                        const PrefaultedMemory* page_memory) noexcept {
   ArenaLayout layout(memory.data());
-  const CacheTables tables = cut_tables(limits, frame_count, layout);
+  CacheTables tables;
+  if (limits.is_shared) {
+    UntouchedLayout page_layout(page_memory->data());
+    tables = cut_tables(limits, frame_count, layout, page_layout);
+    assert(page_layout.used_bytes() <= page_memory->bytes());
+  } else {
+    tables = cut_tables(limits, frame_count, layout, layout);
+  }
   assert(layout.used_bytes() <= memory.bytes());
   return tables;
 }

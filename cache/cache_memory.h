@@ -24,6 +24,9 @@ struct CacheLimits {
   std::uint32_t own_readers = 0;  ///< of max_readers: those that threads of the caller claim
   /// Number of pages that are never fetched, below page_count. No frame is kept for them.
   std::uint32_t unused_pages = 0;
+  /// Whether the pages are those of files that come and go: see PageCache::add_file. The page
+  /// numbers are then below page_count, of which none is in use at first.
+  bool is_shared = false;
 
   /// Maximum number of pages in frames.
   std::uint32_t used_pages() const noexcept { return page_count - unused_pages; }
@@ -38,7 +41,8 @@ Result<void> check_limits(const CacheLimits& limits) noexcept;
 
 /// Minimum number of frames with which every fetch is certain to end: one for each entry in
 /// limbo (one entry per reader and one for pin()), and one for a pinned root page. At most
-/// used_pages(), because nothing is evicted where every page has a frame.
+/// used_pages(), because nothing is evicted where every page has a frame. In a shared cache one for
+/// each entry; each file takes one more.
 std::uint32_t minimum_frame_count(const CacheLimits& limits) noexcept;
 
 /// Memory of a cache with `frame_count` frames plus reserved_bytes. This sum is compared with
@@ -69,11 +73,19 @@ struct CacheTables {
   std::span<InFlightRead> in_flight_reads;
 };
 
+/// Bytes that the tables of `page_count` pages of a shared cache take, which are not part of
+/// tables_bytes().
+std::uint64_t page_tables_bytes(const CacheLimits& limits, std::uint64_t page_count) noexcept;
+
 /// Bytes that the tables of a cache with `frame_count` frames take.
 std::uint64_t tables_bytes(const CacheLimits& limits, std::uint32_t frame_count) noexcept;
 
 /// Creates the tables in `memory`, which must have at least tables_bytes() bytes and outlive them.
+///
+/// page_memory  of a shared cache: for the tables of page_count pages, at least
+///              page_tables_bytes() bytes, all 0. They are not touched.
 CacheTables make_tables(const CacheLimits& limits, std::uint32_t frame_count,
-                        const PrefaultedMemory& memory) noexcept;
+                        const PrefaultedMemory& memory,
+                        const PrefaultedMemory* page_memory = nullptr) noexcept;
 
 }  // namespace planetree::cache

@@ -41,6 +41,14 @@ class FramePool {
   std::uint32_t frame_count() const noexcept { return frame_count_; }
   std::uint32_t frame_bytes() const noexcept { return frame_bytes_; }
   std::uint64_t stride_bytes() const noexcept { return stride_bytes_; }
+  /// Gives the memory of a frame back to the system; reclaim() backs it again.
+  void discard(std::uint32_t index) const noexcept {
+    memory_.discard(index * stride_bytes_, stride_bytes_);
+  }
+  /// See PrefaultedMemory::commit().
+  Result<void> reclaim(std::uint32_t index, bool is_locked) const noexcept {
+    return memory_.commit(index * stride_bytes_, stride_bytes_, is_locked);
+  }
   /// See PrefaultedMemory::lock().
   bool lock() const noexcept { return memory_.lock(); }
   /// Bytes of memory that the pool holds, rounding included.

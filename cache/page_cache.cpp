@@ -21,10 +21,16 @@ Result<std::unique_ptr<PageCache>> PageCache::create(const CacheLimits& limits, 
   }
   Result<PrefaultedMemory> memory = PrefaultedMemory::claim(tables_bytes(limits, frame_count));
   if (!memory) return memory.error();
+  std::optional<PrefaultedMemory> page_memory;
+  if (limits.is_shared) {
+    auto reserved = PrefaultedMemory::reserve(page_tables_bytes(limits, limits.page_count));
+    if (!reserved) return reserved.error();
+    page_memory.emplace(*std::move(reserved));
+  }
   Result<FramePool> frames = FramePool::create(frame_count, limits.frame_bytes);
   if (!frames) return frames.error();
-  std::unique_ptr<PageCache> cache(
-      new (std::nothrow) PageCache(limits, fill, context, *std::move(memory), *std::move(frames)));
+  std::unique_ptr<PageCache> cache(new (std::nothrow) PageCache(
+      limits, fill, context, *std::move(memory), std::move(page_memory), *std::move(frames)));
   if (cache == nullptr) {
     return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
                       "no memory for the page cache: free memory");
@@ -34,18 +40,22 @@ Result<std::unique_ptr<PageCache>> PageCache::create(const CacheLimits& limits, 
 }
 
 PageCache::PageCache(const CacheLimits& limits, FillPage fill, void* context,
-                     PrefaultedMemory memory, FramePool frames) noexcept
+                     PrefaultedMemory memory, std::optional<PrefaultedMemory> page_memory,
+                     FramePool frames) noexcept
     : limits_(limits),
       fill_(fill),
       context_(context),
       table_memory_(std::move(memory)),
+      page_memory_(std::move(page_memory)),
       frames_(std::move(frames)),
-      tables_(make_tables(limits, frames_.frame_count(), table_memory_)),
+      tables_(make_tables(limits, frames_.frame_count(), table_memory_,
+                          page_memory_ ? &*page_memory_ : nullptr)),
       map_(tables_.map),
       evictor_(limits.policy, tables_.policy),
       limbo_(tables_.slots, tables_.entries, tables_.stamps),
       in_flight_reads_(tables_.in_flight_reads),
-      free_count_(frames_.frame_count()) {
+      free_count_(frames_.frame_count()),
+      files_(limits.page_count) {
   // The stack has frame 0 on top, so that frames are used in order.
   for (std::uint32_t i = 0; i < free_count_; ++i) tables_.free_frames[i] = free_count_ - 1 - i;
 }
@@ -80,8 +90,10 @@ Result<void> PageCache::pin_resident(std::uint32_t page) noexcept {
   if (evictor_.state(frame) == Evictor::State::kPinned) return {};
   const std::uint32_t frame_count = frames_.frame_count();
   const std::uint32_t entries = limits_.max_readers + 1;
-  // page_fetch.cpp explains why max_readers + 1 frames must stay unpinned.
-  if (frame_count < limits_.used_pages() && frame_count - pinned_count_ <= entries) {
+  // page_fetch.cpp explains why max_readers + 1 frames must stay unpinned. A shared cache keeps a
+  // frame for one pinned page of each file.
+  if (!limits_.is_shared && frame_count < limits_.used_pages() &&
+      frame_count - pinned_count_ <= entries) {
     return make_error(ErrorCode::kNoMemory, page, Error::kNowhere,
                       "pinning more than %u of %u frames leaves too few for queries: "
                       "raise the memory budget",
@@ -117,8 +129,10 @@ CacheStats PageCache::stats() const noexcept {
   stats.evictions = counts_.evictions.load(std::memory_order_relaxed);
   stats.quarantined = counts_.quarantined.load(std::memory_order_relaxed);
   stats.given_up = counts_.given_up.load(std::memory_order_relaxed);
-  stats.frame_count = frames_.frame_count();
-  stats.arena_bytes = frames_.arena_bytes();
+  stats.frame_count = frame_count();
+  stats.arena_bytes =
+      frames_.arena_bytes() - discarded_count_.load(std::memory_order_relaxed) *
+                                  frames_.stride_bytes();
   stats.table_bytes = table_memory_.bytes();
   stats.reserved_bytes = limits_.reserved_bytes;
   stats.budget_bytes = limits_.budget_bytes;
@@ -126,13 +140,15 @@ CacheStats PageCache::stats() const noexcept {
   return stats;
 }
 
-Reader::Reader(PageCache& cache, ReaderSlot& slot, std::uint32_t index) noexcept
-    : map_(cache.map_),
+Reader::Reader(PageCache& cache, ReaderSlot& slot, std::uint32_t index,
+               std::uint32_t first_page) noexcept
+    : map_(cache.map_.from(first_page)),
       reference_bits_(cache.evictor_.reference_bits()),
       frames_(cache.frames_.frame(0)),
       stride_bytes_(cache.frames_.stride_bytes()),
       slot_(&slot),
       index_(index),
+      first_page_(first_page),
       cache_(&cache) {}
 
 Reader::Reader(Reader&& other) noexcept
@@ -142,6 +158,8 @@ Reader::Reader(Reader&& other) noexcept
       stride_bytes_(other.stride_bytes_),
       slot_(std::exchange(other.slot_, nullptr)),
       index_(other.index_),
+      first_page_(other.first_page_),
+      owns_slot_(other.owns_slot_),
       cache_(other.cache_) {}
 
 Reader& Reader::operator=(Reader&& other) noexcept {
@@ -153,6 +171,8 @@ Reader& Reader::operator=(Reader&& other) noexcept {
   stride_bytes_ = other.stride_bytes_;
   slot_ = std::exchange(other.slot_, nullptr);
   index_ = other.index_;
+  first_page_ = other.first_page_;
+  owns_slot_ = other.owns_slot_;
   cache_ = other.cache_;
   return *this;
 }
@@ -160,7 +180,7 @@ Reader& Reader::operator=(Reader&& other) noexcept {
 Reader::~Reader() { give_back(); }
 
 void Reader::give_back() noexcept {
-  if (slot_ == nullptr) return;
+  if (slot_ == nullptr || !owns_slot_) return;
   if (slot_->inside()) slot_->leave();
   std::exchange(slot_, nullptr)->release();
 }

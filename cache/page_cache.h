@@ -8,12 +8,14 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 
 #include "cache/cache_memory.h"
 #include "cache/frame_pool.h"
 #include "cache/in_flight_reads.h"
 #include "cache/limbo.h"
+#include "cache/page_ranges.h"
 #include "cache/policy/evictor.h"
 #include "cache/prefaulted_memory.h"
 #include "cache/protocol.h"
@@ -81,6 +83,10 @@ struct CacheStats {
 ///       ^____________________________(fill failed)________________|
 ///
 /// All memory is claimed in create(); nothing allocates after it.
+///
+/// The pages of a shared cache (CacheLimits::is_shared) are those of files that come and go. Each
+/// file has a range of page numbers. It lends the memory of frames for the tables of its pages, and
+/// for what else its caller needs.
 class PageCache {
  public:
   /// Creates a cache with as many frames as the budget allows, at most one per page.
@@ -109,6 +115,24 @@ class PageCache {
   /// threads  any.
   Result<Reader> claim_reader() noexcept;
 
+  /// Adds the pages of a file to a shared cache, and returns the number of the first one.
+  ///
+  /// page_count  above 0.
+  /// bytes       memory of the caller for this file, which frames give up.
+  /// errors      kNoMemory: too few frames would be left for fetches, with a pinned page for each
+  ///             file; the text says how much is lacking. There are too many pages.
+  /// threads     any, one at a time with remove_file() and pin().
+  Result<std::uint32_t> add_file(std::uint32_t page_count, std::uint64_t bytes) noexcept;
+  /// Removes the pages of a file, pinned ones too, and backs the frames again that add_file() took.
+  /// No reader may be looking one of these pages up, hold a frame of one, or wait for one.
+  ///
+  /// first, bytes  returned by and given to add_file(). The caller has freed the memory.
+  void remove_file(std::uint32_t first, std::uint64_t bytes) noexcept;
+  /// Returns a reader of the pages of one file of a shared cache, whose numbers then go from 0. It
+  /// uses the slot of the reader with this index: only one thread at a time may use either, and
+  /// neither while the other is inside a section. The destructor does not release the slot.
+  Reader window(std::uint32_t reader_index, std::uint32_t first_page) noexcept;
+
   /// Locks arena and tables in memory, so that the system does not page them out. Returns false
   /// if the system refuses for either. Call it before there are readers.
   bool lock_memory() noexcept;
@@ -122,9 +146,14 @@ class PageCache {
                             const std::atomic<bool>& stop) noexcept;
   void wake_helpers() noexcept;
 
-  std::uint32_t frame_count() const noexcept { return frames_.frame_count(); }
-  /// Whether each page that may be fetched has a frame, so that none is evicted.
-  bool holds_all_pages() const noexcept { return frame_count() >= limits_.used_pages(); }
+  std::uint32_t frame_count() const noexcept {
+    return frames_.frame_count() - discarded_count_.load(std::memory_order_relaxed);
+  }
+  /// Whether each page that may be fetched has a frame, so that none is evicted. False for a shared
+  /// cache.
+  bool holds_all_pages() const noexcept {
+    return !limits_.is_shared && frame_count() >= limits_.used_pages();
+  }
 
   /// Returns the counts and sizes.
   /// threads  any; takes no lock.
@@ -138,7 +167,7 @@ class PageCache {
   enum class Outcome { kResident, kUnreadable, kWouldBlock, kRetry, kGivenUp };
 
   PageCache(const CacheLimits& limits, FillPage fill, void* context, PrefaultedMemory memory,
-            FramePool frames) noexcept;
+            std::optional<PrefaultedMemory> page_memory, FramePool frames) noexcept;
 
   // These are defined in page_fetch.cpp, which explains why they end. A fetcher is identified by a
   // reader's index or by pin_fetcher(); it has one entry in limbo_ and one in in_flight_reads_.
@@ -160,6 +189,13 @@ class PageCache {
   bool evict_into_limbo(std::uint32_t fetcher) noexcept;
   Result<void> pin_resident(std::uint32_t page) noexcept;
   std::uint32_t pin_fetcher() const noexcept { return limits_.max_readers; }
+  // These are defined in shared_cache.cpp.
+  Result<void> lend(Lock& lock, std::uint64_t bytes) noexcept;
+  void discard_frames(Lock& lock, std::uint32_t count) noexcept;
+  void reclaim_frames(std::uint32_t count) noexcept;
+  Result<void> back_tables(std::uint32_t page_count) noexcept;
+  void forget(std::uint32_t page) noexcept;
+
   bool quarantined(std::uint32_t page) const noexcept;
   void quarantine(std::uint32_t page) noexcept;
 
@@ -181,6 +217,7 @@ class PageCache {
   const FillPage fill_;
   void* const context_;
   PrefaultedMemory table_memory_;
+  const std::optional<PrefaultedMemory> page_memory_;  // of a shared cache: tables of its pages
   FramePool frames_;
   const CacheTables tables_;
   const PageMap map_;
@@ -193,6 +230,12 @@ class PageCache {
   InFlightReads in_flight_reads_;
   std::uint32_t free_count_;
   std::uint32_t pinned_count_ = 0;
+  // Of a shared cache. Frames whose memory is lent stand at the end of tables_.free_frames.
+  PageRanges files_;
+  std::uint32_t file_count_ = 0;
+  std::uint32_t backed_pages_ = 0;  // pages whose tables are backed by memory
+  std::uint64_t lent_bytes_ = 0;
+  std::atomic<std::uint32_t> discarded_count_{0};  // frames without memory
   std::uint64_t locked_bytes_ = 0;
   CacheObserver observer_;  // without functions: none
   Counts counts_;

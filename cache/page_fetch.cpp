@@ -48,7 +48,7 @@ void wait_for_sections(std::uint32_t attempt) noexcept {
 
 FetchResult Reader::fetch(std::uint32_t page, const FetchTerms& terms) noexcept {
   slot_->leave();
-  return cache_->fetch(*slot_, page, terms);
+  return cache_->fetch(*slot_, first_page_ + page, terms);
 }
 
 bool Reader::help() noexcept {

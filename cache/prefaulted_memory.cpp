@@ -55,9 +55,10 @@ bool populate(std::byte* data, std::uint64_t bytes) noexcept {
   if (outcome == 0) return true;
   if (errno != EINVAL) return false;
 #endif
-  // Kernels before 5.14 do not know MADV_POPULATE_WRITE: write to each page instead.
+  // Kernels before 5.14 do not know MADV_POPULATE_WRITE: write to each page instead, what is there.
   for (std::uint64_t at = 0; at < bytes; at += system_page_bytes()) {
-    *static_cast<volatile std::byte*>(data + at) = std::byte{0};
+    auto* const byte = static_cast<volatile std::byte*>(data + at);
+    *byte = *byte;
   }
   return true;
 }
@@ -87,6 +88,38 @@ Result<PrefaultedMemory> PrefaultedMemory::claim(std::uint64_t bytes) noexcept {
   PrefaultedMemory memory(data, rounded);
   if (!populate(data, rounded)) return refused(rounded);
   return memory;
+}
+
+Result<PrefaultedMemory> PrefaultedMemory::reserve(std::uint64_t bytes) noexcept {
+  assert(bytes != 0);
+  const std::uint64_t rounded = claimed_bytes(bytes);
+  void* const address = ::mmap(nullptr, rounded, PROT_READ | PROT_WRITE,
+                               MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (address == MAP_FAILED) return refused(rounded);
+  // A huge page would back more than commit() asks for.
+  ::madvise(address, rounded, MADV_NOHUGEPAGE);
+  return PrefaultedMemory(static_cast<std::byte*>(address), rounded);
+}
+
+Result<void> PrefaultedMemory::commit(std::uint64_t offset, std::uint64_t bytes,
+                                      bool is_locked) const noexcept {
+  assert(offset + bytes <= bytes_);
+  const std::uint64_t last = system_page_bytes() - 1;
+  const std::uint64_t begin = offset & ~last;
+  const std::uint64_t end = (offset + bytes + last) & ~last;
+  if (!populate(data_ + begin, end - begin)) return refused(end - begin);
+  if (is_locked) ::mlock(data_ + begin, end - begin);
+  return {};
+}
+
+void PrefaultedMemory::discard(std::uint64_t offset, std::uint64_t bytes) const noexcept {
+  assert(offset + bytes <= bytes_);
+  const std::uint64_t last = system_page_bytes() - 1;
+  const std::uint64_t begin = (offset + last) & ~last;
+  const std::uint64_t end = (offset + bytes) & ~last;
+  if (begin >= end) return;
+  ::munlock(data_ + begin, end - begin);
+  ::madvise(data_ + begin, end - begin, MADV_DONTNEED);
 }
 
 bool PrefaultedMemory::lock() const noexcept { return ::mlock(data_, bytes_) == 0; }

@@ -19,6 +19,10 @@ class PrefaultedMemory {
   /// errors  kNoMemory.
   static Result<PrefaultedMemory> claim(std::uint64_t bytes) noexcept;
 
+  /// Reserves addresses for `bytes` bytes, not 0, without memory. commit() backs parts of them.
+  /// errors  kNoMemory.
+  static Result<PrefaultedMemory> reserve(std::uint64_t bytes) noexcept;
+
   /// Bytes that claim(bytes) takes: `bytes` rounded up to whole system pages. Sizes from 1.5 to
   /// 2 MiB are rounded up to a huge page of 2 MiB.
   static std::uint64_t claimed_bytes(std::uint64_t bytes) noexcept;
@@ -26,6 +30,16 @@ class PrefaultedMemory {
   PrefaultedMemory(PrefaultedMemory&& other) noexcept;
   PrefaultedMemory& operator=(PrefaultedMemory&& other) noexcept;
   ~PrefaultedMemory();
+
+  /// Backs the system pages that this part lies in, which may be backed already, as claim() does.
+  /// Memory that was not backed before is zero.
+  ///
+  /// is_locked  whether to lock the memory too, see lock(). A refusal is ignored.
+  /// errors     kNoMemory.
+  Result<void> commit(std::uint64_t offset, std::uint64_t bytes, bool is_locked) const noexcept;
+  /// Gives the memory of whole system pages in this part back to the system. Their content is lost;
+  /// commit() must back them before the next access.
+  void discard(std::uint64_t offset, std::uint64_t bytes) const noexcept;
 
   /// Locks the memory, so that the system does not page it out. Returns false if the system
   /// refuses.

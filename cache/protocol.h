@@ -179,6 +179,12 @@ class BasicPageMap {
     return cells_[page].load(Atomics::order(ProtocolStep::kFind)) - 1;
   }
 
+  /// Returns the map of the pages from `first` on, whose numbers then go from 0.
+  BasicPageMap from(std::uint32_t first) const noexcept {
+    assert(first <= count_);
+    return BasicPageMap(std::span<Cell>(cells_ + first, count_ - first));
+  }
+
   /// Cells of all pages, for prefetching. A cell may change at any time.
   const Cell* cells() const noexcept { return cells_; }
 

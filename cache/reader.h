@@ -100,7 +100,8 @@ class Reader {
 
  private:
   friend class PageCache;
-  Reader(PageCache& cache, ReaderSlot& slot, std::uint32_t index) noexcept;
+  Reader(PageCache& cache, ReaderSlot& slot, std::uint32_t index,
+         std::uint32_t first_page = 0) noexcept;
   void give_back() noexcept;
   const std::byte* at(std::uint32_t frame) const noexcept {
     return frames_ + frame * stride_bytes_;
@@ -114,6 +115,8 @@ class Reader {
   std::uint64_t stride_bytes_;
   ReaderSlot* slot_;  // nullptr after a move
   std::uint32_t index_;
+  std::uint32_t first_page_;  // number that the cache has for page 0; see PageCache::window
+  bool owns_slot_ = true;
   PageCache* cache_;
 };
 

@@ -59,6 +59,7 @@ class Evictor {
 
   State state(std::uint32_t frame) const noexcept { return states_.of(frame); }
   void pin(std::uint32_t frame) noexcept { states_.pin(frame); }
+  void unpin(std::uint32_t frame) noexcept { states_.unpin(frame); }
   void hold(std::uint32_t frame) noexcept { states_.hold(frame); }
   void release(std::uint32_t frame) noexcept {
     states_.release(frame);

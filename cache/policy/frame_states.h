@@ -12,7 +12,7 @@ inline constexpr std::uint32_t kNoFrame = ~std::uint32_t{0};
 
 /// State of each frame. Only the writer, the holder of the cache's mutex, reads or changes it.
 ///
-///     idle --install--> evictable --pin--> pinned
+///     idle --install--> evictable --pin--> pinned, and back by unpin()
 ///      ^___remove_______|   ^
 ///                           |--hold--> held, and back by release()
 ///
@@ -40,6 +40,8 @@ class FrameStates {
     assert(states_[frame] != State::kIdle);
     states_[frame] = State::kPinned;
   }
+  /// Makes a pinned frame evictable.
+  void unpin(std::uint32_t frame) noexcept { change(frame, State::kPinned, State::kEvictable); }
   /// Holds an evictable frame. Has no effect on a held or pinned frame. Not for idle frames.
   void hold(std::uint32_t frame) noexcept {
     assert(states_[frame] != State::kIdle);

@@ -29,10 +29,12 @@ struct PolicyTables {
 
 /// Takes the tables of a policy from a layout.
 ///
-/// layout  an ArenaLayout: cut<T>(count) returns `count` elements, all 0
-template <class Layout>
+/// layout       an ArenaLayout: cut<T>(count) returns `count` elements, all 0
+/// page_layout  another one, for the arrays of one element per page
+template <class Layout, class PageLayout>
 PolicyTables cut_policy_tables(EvictionPolicy policy, std::uint64_t frame_count,
-                               std::uint64_t page_count, Layout& layout) noexcept {
+                               std::uint64_t page_count, Layout& layout,
+                               PageLayout& page_layout) noexcept {
   const bool keeps_times = policy == EvictionPolicy::kLru || policy == EvictionPolicy::kTwoQ;
   const bool keeps_ghosts = policy == EvictionPolicy::kS3Fifo || policy == EvictionPolicy::kTwoQ;
   PolicyTables tables;
@@ -46,8 +48,14 @@ PolicyTables cut_policy_tables(EvictionPolicy policy, std::uint64_t frame_count,
   }
   if (keeps_ghosts || policy == EvictionPolicy::kSieve)
     tables.nodes = layout.template cut<FrameNode>(frame_count);
-  if (keeps_ghosts) tables.ghosts = layout.template cut<std::uint32_t>(page_count);
+  if (keeps_ghosts) tables.ghosts = page_layout.template cut<std::uint32_t>(page_count);
   return tables;
+}
+/// Takes all tables from one layout.
+template <class Layout>
+PolicyTables cut_policy_tables(EvictionPolicy policy, std::uint64_t frame_count,
+                               std::uint64_t page_count, Layout& layout) noexcept {
+  return cut_policy_tables(policy, frame_count, page_count, layout, layout);
 }
 
 }  // namespace planetree::cache

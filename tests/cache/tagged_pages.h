@@ -53,6 +53,7 @@ class TaggedPages {
   }
 
   void make_unreadable(std::uint32_t page) { unreadable_.insert(page); }
+  void make_readable(std::uint32_t page) { unreadable_.erase(page); }
   std::uint64_t fill_calls() const noexcept { return fill_calls_.load(std::memory_order_relaxed); }
 
  private:
