@@ -130,9 +130,8 @@ CacheStats PageCache::stats() const noexcept {
   stats.quarantined = counts_.quarantined.load(std::memory_order_relaxed);
   stats.given_up = counts_.given_up.load(std::memory_order_relaxed);
   stats.frame_count = frame_count();
-  stats.arena_bytes =
-      frames_.arena_bytes() - discarded_count_.load(std::memory_order_relaxed) *
-                                  frames_.stride_bytes();
+  stats.arena_bytes = frames_.arena_bytes() -
+                      discarded_count_.load(std::memory_order_relaxed) * frames_.stride_bytes();
   stats.table_bytes = table_memory_.bytes();
   stats.reserved_bytes = limits_.reserved_bytes;
   stats.budget_bytes = limits_.budget_bytes;

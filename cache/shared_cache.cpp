@@ -58,7 +58,8 @@ Result<void> PageCache::lend(Lock& lock, std::uint64_t bytes) noexcept {
   const std::uint64_t kept = std::uint64_t{limits_.max_readers} + 1 + file_count_;
   if (wanted + kept > frames_.frame_count())
     return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
-                      "%" PRIu64 " bytes are lacking for this file beside the others: raise the "
+                      "%" PRIu64
+                      " bytes are lacking for this file beside the others: raise the "
                       "memory budget by them, or remove a file",
                       (wanted + kept - frames_.frame_count()) * stride);
   const std::uint32_t discarded = discarded_count_.load(std::memory_order_relaxed);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <new>
 #include <utility>
 
@@ -10,8 +9,7 @@
 #include "octree/geometry/octcode.h"
 #include "octree/geometry/startup_check.h"
 #include "query/answer/mesh_triangle.h"
-#include "query/file/field_loading.h"
-#include "query/file/page_decoding.h"
+#include "query/file/model_info.h"
 #include "query/model_state.h"
 #include "query/probe_state.h"
 #include "query/serve/page_accessor.h"
@@ -20,54 +18,6 @@
 namespace planetree {
 namespace query {
 namespace {
-
-ModelInfo describe(const storage::PageFile& file) {
-  const storage::FileHeader& header = file.header();
-  const storage::ModelRecord& model = header.model;
-  ModelInfo info;
-  info.triangles = model.triangle_count;
-  info.skipped = model.skipped_count;
-  info.first_skipped = model.first_skipped;
-  info.vertices = model.vertex_count;
-  info.box_lower = {model.box_lower[0], model.box_lower[1], model.box_lower[2]};
-  info.box_upper = {model.box_upper[0], model.box_upper[1], model.box_upper[2]};
-  info.core_lower = {model.core_lower[0], model.core_lower[1], model.core_lower[2]};
-  info.core_upper = {model.core_upper[0], model.core_upper[1], model.core_upper[2]};
-  info.strays = model.stray_count;
-  info.unbalanced_edges = model.unbalanced_edge_count;
-  info.caps = model.cap_count;
-  info.cap_area = std::ldexp(model.cap_area, -2 * model.scale_exponent);
-  info.side_rule =
-      model.side_rule == storage::SideRule::kSurface ? SideRule::kSurface : SideRule::kSolid;
-  info.side_is_chosen = model.side_is_chosen != 0;
-  info.openness = model.openness;
-  info.input_triangles = model.usable_triangles();
-  info.has_region = model.has_region();
-  info.region_lower = {model.region_lower[0], model.region_lower[1], model.region_lower[2]};
-  info.region_upper = {model.region_upper[0], model.region_upper[1], model.region_upper[2]};
-  info.float64 = model.vertex_kind == storage::VertexKind::kFloat64;
-  info.nodes = model.node_count;
-  info.blocks = model.block_count;
-  info.levels = model.height;
-  info.layers = layers_of(model);
-  info.attributes = model.attributes;
-  info.value_kind = static_cast<ValueKind>(model.value_kind);
-  info.pages = header.page_count;
-  info.page_bytes = header.page_bytes;
-  info.file_bytes = header.file_bytes;
-  info.section_bytes.headers = 2 * sizeof header;
-  info.section_bytes.page_table = file.entries().size_bytes();
-  for (std::uint32_t page = 0; page < header.page_count; ++page)
-    (page < header.first_cap_page()         ? info.section_bytes.distance_pages
-     : page < header.first_field_page()     ? info.section_bytes.cap_pages
-     : page < header.first_attribute_page() ? info.section_bytes.field_pages
-     : page < header.first_mask_page()      ? info.section_bytes.attribute_pages
-                                            : info.section_bytes.mask_pages) +=
-        file.entries()[page].stored_bytes;
-  info.content_id[0] = header.content_id[0];
-  info.content_id[1] = header.content_id[1];
-  return info;
-}
 
 Result<void> check_options(const OpenOptions& options) {
   const auto check = [](unsigned count, const char* what, unsigned most) -> Result<void> {
@@ -115,15 +65,8 @@ Pager::Limits limits_of(const storage::FileHeader& header, const OpenOptions& op
   limits.wait_limit = std::chrono::milliseconds(options.wait_limit_ms);
   limits.use_io_uring = options.use_io_uring;
   limits.policy = options.policy;
-  limits.arena.readers = limits.readers();
-  limits.arena.model_bytes = sizeof(ServingModel);
-  limits.arena.probe_bytes = sizeof(ProbeState);
-  const bool has_side = limits.opened.has_side();
-  if (has_side && header.model.mask_page_count > 0)
-    limits.arena.side_grid_bytes = octree::SideGrid::bytes(header.model.triangle_count);
-  if (has_side && header.model.cap_count > 0)
-    limits.arena.side_grid_bytes += octree::CapGrid::kBytes;
-  if (limits.opened.has_field()) limits.arena.field_bytes = field_shape(header.model).bytes();
+  limits.arena = arena_needs(header, limits.opened, limits.readers());
+  limits.arena.contact_bytes = sizeof(octree::ContactTriangles);
   limits.arena.page_trace_capacity = options.page_trace_capacity;
   limits.arena.page_count = limits.opened.page_count(header);
   return limits;
@@ -138,39 +81,17 @@ static_assert(OpenOptions::kMaxProbes + OpenOptions::kMaxFetchThreads +
 ModelState::ModelState(std::unique_ptr<Pager> pager)
     : pager_(std::move(pager)),
       info_(describe(pager_->file())),
-      serving_(::new (pager_->query_arena().parts().model.data())
-                   ServingModel(pager_->file().header(), pager_->opened(), pager_->cache(),
-                                pager_->query_arena().parts())) {}
+      serving_(make_serving_model(pager_->file().header(), pager_->opened(), pager_->cache(),
+                                  pager_->query_arena().parts())) {}
 
 ModelState::~ModelState() = default;
 
-Result<void> ModelState::fill_side_grid() {
-  if (!pager_->opened().has_side()) return {};
+Result<void> ModelState::load() {
   auto reader = claim_reader();
   if (!reader) return reader.error();
-  PageAccessor accessor(*reader, Wait::kForPages);
-  accessor.set_trace(serving_->page_trace(reader->index()));
-  ModelGeometry& geometry = serving_->geometry;
-  std::span<std::byte> memory = serving_->arena.side_grid;
-  if (geometry.tree.caps) {
-    geometry.cap_grid.fill(geometry.caps, geometry.tree, accessor.pages(),
-                           memory.first(octree::CapGrid::kBytes));
-    memory = memory.subspan(octree::CapGrid::kBytes);
-  }
-  geometry.side_grid.fill(geometry.mask, geometry.tree, geometry.cap_grid,
-                          geometry.region.has_walls(), geometry.scale.exponent(), accessor.pages(),
-                          memory);
-  return {};
-}
-
-Result<void> ModelState::fill_field() {
-  if (!pager_->opened().has_field()) return {};
-  auto field = load_field(pager_->file(), serving_->arena.field);
-  if (!field) return field.error();
-  field_damaged_ = field->is_damaged;
-  ModelGeometry& geometry = serving_->geometry;
-  geometry.field.fill(field_shape(pager_->file().header().model), field->points,
-                      geometry.tree.has_strays || geometry.region.has_walls());
+  const auto loaded = load_model(*serving_, pager_->file(), pager_->opened(), *reader);
+  if (!loaded) return loaded.error();
+  field_damaged_ = loaded->field_is_damaged;
   return {};
 }
 
@@ -204,11 +125,11 @@ Result<void> ModelState::start_threads(const OpenOptions& options, const ModelSe
   }
   if (options.read_ahead && cache().holds_all_pages())
     read_ahead_.emplace(pager_->opened(), pager_->file().header());
-  auto fetchers = FetchThreads::start(cache(), serving_->arena.fetch_requests, std::move(probes),
-                                      read_ahead_ ? &*read_ahead_ : nullptr);
+  auto fetchers = FetchThreads::start(cache(), options.fetch_threads);
   if (!fetchers) return fetchers.error();
   fetch_threads_ = std::move(*fetchers);
-  return {};
+  return fetch_threads_->add(serving_->arena.fetch_requests, std::move(probes),
+                             read_ahead_ ? &*read_ahead_ : nullptr);
 }
 
 Result<std::unique_ptr<ModelState>> ModelState::open(const std::filesystem::path& path,
@@ -224,8 +145,7 @@ Result<std::unique_ptr<ModelState>> ModelState::open(const std::filesystem::path
   if (!pager) return pager.error();
   try {
     std::unique_ptr<ModelState> state(new ModelState(std::move(*pager)));
-    if (const auto filled = state->fill_side_grid(); !filled) return filled.error();
-    if (const auto filled = state->fill_field(); !filled) return filled.error();
+    if (const auto loaded = state->load(); !loaded) return loaded.error();
     if (PageTraces* const traces = state->serving_->arena.traces) traces->finish_open();
     if (const auto started = state->start_threads(options, seams); !started) return started.error();
     return state;

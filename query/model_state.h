@@ -69,18 +69,13 @@ class ModelState {
 
  private:
   explicit ModelState(std::unique_ptr<Pager> pager);
-  Result<void> fill_side_grid();
-  Result<void> fill_field();
+  Result<void> load();
   Result<void> start_threads(const OpenOptions& options, const ModelSeams& seams);
-
-  struct Destroy {  // does not free the memory, which is the arena's
-    void operator()(ServingModel* serving) const noexcept { serving->~ServingModel(); }
-  };
 
   // Each member uses the ones before it.
   std::unique_ptr<Pager> pager_;
   ModelInfo info_;
-  std::unique_ptr<ServingModel, Destroy> serving_;
+  ServingModelPtr serving_;
   bool field_damaged_ = false;
   // For find_triangles(), one thread at a time; empty if the attribute layer is not open.
   mutable std::mutex finding_;

@@ -185,8 +185,8 @@ Found ProbeState::find_contacts(const Vec3& query, double radius, std::span<Clos
   if (!is_valid(query, options) || !(radius >= 0)) return {};
   QueryOptions limited = with_defaults(options);
   RunningQuery running(*this, PageAccess::Query::kClosestPoint, options.wait);
-  const ContactSet set =
-      query::find_contacts(running.context(), query, radius, limited, contact_triangles_, found);
+  const ContactSet set = query::find_contacts(running.context(), query, radius, limited,
+                                              model_.contacts[reader_.index()], found);
   side_searches_ += coherence_.searched_side;
   last_parts_ = computed_parts(options.parts | kDistance);
   last_side_rule_ = options.side_rule;

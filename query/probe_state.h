@@ -149,7 +149,6 @@ class ProbeState {
   std::uint64_t work_spent_ = 0;                 // units of all queries
   std::uint64_t side_searches_ = 0;              // closest-point queries that searched for the side
   Coherence coherence_;
-  octree::ContactTriangles contact_triangles_;  // of one query
 };
 
 /// A query while it runs: its access to pages, its page trace if the model keeps one, and its work,

@@ -7,9 +7,13 @@
 #include <span>
 
 #include "cache/page_cache.h"
+#include "cache/reader.h"
+#include "planetree/error.h"
+#include "query/answer/contact_set.h"
 #include "query/answer/model_geometry.h"
 #include "query/serve/page_trace.h"
 #include "query/serve/query_arena.h"
+#include "storage/file/page_file.h"
 
 namespace planetree::query {
 
@@ -30,7 +34,8 @@ struct ServingModel {
   cache::FetchTerms fetcher_terms{};      ///< how fetch threads wait for pages
   BatchThreads* batch_threads = nullptr;  ///< null: batches run on the caller's thread
   std::span<const std::unique_ptr<ProbeState>> batch_probes;  ///< one per thread of batch_threads
-  mutable std::atomic<std::uint64_t> degraded{0};             ///< number of degraded answers
+  std::span<octree::ContactTriangles> contacts;    ///< indexed by reader; memory of one query each
+  mutable std::atomic<std::uint64_t> degraded{0};  ///< number of degraded answers
   mutable std::atomic<std::uint64_t> degraded_without_misses{0};  ///< of these, lacking no page
 
   /// Counts a degraded answer.
@@ -50,5 +55,32 @@ struct ServingModel {
     return arena.traces ? &arena.traces->of_readers[reader] : nullptr;
   }
 };
+
+/// Destroys a ServingModel without freeing its memory, which is the arena's.
+struct DestroyServingModel {
+  void operator()(ServingModel* serving) const noexcept { serving->~ServingModel(); }
+};
+using ServingModelPtr = std::unique_ptr<ServingModel, DestroyServingModel>;
+
+/// Returns what the arena of a model needs for so many readers, without contacts and traces.
+QueryArena::Needs arena_needs(const storage::FileHeader& header, const OpenLayers& opened,
+                              unsigned readers) noexcept;
+
+/// Makes a model in its arena. load_model() must fill it before queries use it.
+///
+/// arena  of arena_needs(); must outlive the model, as `cache` must
+ServingModelPtr make_serving_model(const storage::FileHeader& header, const OpenLayers& opened,
+                                   cache::PageCache& cache, const QueryArena::Parts& arena);
+
+/// What load_model() found.
+struct LoadedModel {
+  bool field_is_damaged = false;  ///< a page of the field is unreadable, so that it has none
+};
+/// Reads what queries need besides pages: the side grid, the cap grid and the coarse field.
+///
+/// reader  of the model's pages, which are numbered from 0
+/// errors  kNoMemory
+Result<LoadedModel> load_model(ServingModel& serving, const storage::PageFile& file,
+                               const OpenLayers& opened, cache::Reader& reader);
 
 }  // namespace planetree::query

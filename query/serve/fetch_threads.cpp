@@ -4,6 +4,7 @@
 #include <sched.h>
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <csignal>
 #include <cstddef>
@@ -40,22 +41,36 @@ FetchWorker::FetchWorker(std::span<FetchRequests> requests, std::unique_ptr<Fetc
       next_index_(first) {}
 
 FetchWorker::Action FetchWorker::work() noexcept {
-  const auto serve_any_probe = [this](bool (FetchWorker::*serve)(std::size_t) noexcept) {
-    for (std::size_t left = first_; left < progress_.size(); left += step_) {
-      const std::size_t index = next_index_;
-      next_index_ = index + step_ < progress_.size() ? index + step_ : first_;
-      if ((this->*serve)(index)) return true;
-    }
-    return false;
-  };
+  for (const auto step : {&FetchWorker::serve, &FetchWorker::prefetch, &FetchWorker::read_ahead})
+    if (const Action action = (this->*step)(); action != Action::kNone) return action;
+  return Action::kNone;
+}
+
+bool FetchWorker::serve_any_probe(bool (FetchWorker::*step)(std::size_t) noexcept) noexcept {
+  for (std::size_t left = first_; left < progress_.size(); left += step_) {
+    const std::size_t index = next_index_;
+    next_index_ = index + step_ < progress_.size() ? index + step_ : first_;
+    if ((this->*step)(index)) return true;
+  }
+  return false;
+}
+
+FetchWorker::Action FetchWorker::serve() noexcept {
   // While a request is served, pages that blocking queries wait for are read in between. So the two
   // alternate.
   awaited_page_was_last_ = !awaited_page_was_last_ && probe_->read_awaited_page();
   if (awaited_page_was_last_) return Action::kReadAwaitedPage;
   if (serve_any_probe(&FetchWorker::serve_request)) return Action::kServedRequest;
   awaited_page_was_last_ = probe_->read_awaited_page();
-  if (awaited_page_was_last_) return Action::kReadAwaitedPage;
-  if (serve_any_probe(&FetchWorker::prefetch_position)) return Action::kPrefetchedPosition;
+  return awaited_page_was_last_ ? Action::kReadAwaitedPage : Action::kNone;
+}
+
+FetchWorker::Action FetchWorker::prefetch() noexcept {
+  return serve_any_probe(&FetchWorker::prefetch_position) ? Action::kPrefetchedPosition
+                                                          : Action::kNone;
+}
+
+FetchWorker::Action FetchWorker::read_ahead() noexcept {
   return read_next_page() ? Action::kReadAhead : Action::kNone;
 }
 
@@ -152,13 +167,34 @@ std::chrono::microseconds FetchThreads::pause_after(
   return since_action < kBusyPeriod ? kBusyPause : kIdlePause;
 }
 
-void FetchThreads::run(FetchWorker& worker) noexcept {
+// The first model, in turns, that has something to do, with what is most urgent for any.
+FetchWorker::Action FetchThreads::work(Lane& lane) noexcept {
+  const std::lock_guard lock(lane.mutex);
+  const std::size_t count = lane.served.size();
+  for (const auto step : {&FetchWorker::serve, &FetchWorker::prefetch, &FetchWorker::read_ahead}) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t at = (lane.first + i) % count;
+      FetchWorker& worker = *lane.served[at].worker;
+      const std::uint64_t prefetched = worker.pages_prefetched(), ahead = worker.pages_read_ahead();
+      const FetchWorker::Action action = (worker.*step)();
+      if (action == FetchWorker::Action::kNone) continue;
+      lane.first = at + 1;
+      pages_prefetched_.fetch_add(worker.pages_prefetched() - prefetched,
+                                  std::memory_order_relaxed);
+      pages_read_ahead_.fetch_add(worker.pages_read_ahead() - ahead, std::memory_order_relaxed);
+      return action;
+    }
+  }
+  return FetchWorker::Action::kNone;
+}
+
+void FetchThreads::run(Lane& lane) noexcept {
   prefault_stack();
   drop_priority_and_block_signals();
   const octree::FpEnvironmentGuard host;
   Clock::time_point last = Clock::now() - kBusyPeriod;
   while (!stopping_.load(std::memory_order_relaxed)) {
-    const FetchWorker::Action action = worker.work();
+    const FetchWorker::Action action = work(lane);
     if (action == FetchWorker::Action::kReadAwaitedPage) continue;
     if (action == FetchWorker::Action::kNone) {
       cache_.wait_for_wanted_page(pause_after(Clock::now() - last), stopping_);
@@ -170,10 +206,8 @@ void FetchThreads::run(FetchWorker& worker) noexcept {
   }
 }
 
-Result<std::unique_ptr<FetchThreads>> FetchThreads::start(
-    cache::PageCache& cache, std::span<FetchRequests> requests,
-    std::vector<std::unique_ptr<FetchProbe>> probes, ReadAhead* read_ahead) {
-  const std::size_t count = probes.size();
+Result<std::unique_ptr<FetchThreads>> FetchThreads::start(cache::PageCache& cache,
+                                                          std::size_t count) {
   const auto refused = [count] {
     return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
                       "the system refused %zu fetch threads; free memory or lower fetch_threads",
@@ -181,12 +215,9 @@ Result<std::unique_ptr<FetchThreads>> FetchThreads::start(
   };
   try {
     std::unique_ptr<FetchThreads> threads(new FetchThreads(cache));
-    for (std::size_t i = 0; i < count; ++i)
-      threads->workers_.push_back(std::make_unique<FetchWorker>(
-          requests, std::move(probes[i]), i, count, &time_now, threads->stopping_, read_ahead));
-    for (const auto& worker : threads->workers_)
-      threads->threads_.emplace_back(
-          [&threads = *threads, &worker = *worker] { threads.run(worker); });
+    for (std::size_t i = 0; i < count; ++i) threads->lanes_.push_back(std::make_unique<Lane>());
+    for (const auto& lane : threads->lanes_)
+      lane->thread = std::thread([&threads = *threads, &lane = *lane] { threads.run(lane); });
     return threads;
   } catch (const std::bad_alloc&) {
     return refused();
@@ -195,17 +226,39 @@ Result<std::unique_ptr<FetchThreads>> FetchThreads::start(
   }
 }
 
-std::uint64_t FetchThreads::sum_of(std::uint64_t (FetchWorker::*pages)()
-                                       const noexcept) const noexcept {
-  std::uint64_t sum = 0;
-  for (const auto& worker : workers_) sum += (*worker.*pages)();
-  return sum;
+Result<void> FetchThreads::add(std::span<FetchRequests> requests,
+                               std::vector<std::unique_ptr<FetchProbe>> probes,
+                               ReadAhead* read_ahead) {
+  assert(probes.size() == count());
+  try {
+    for (std::size_t i = 0; i < count(); ++i) {
+      auto worker = std::make_unique<FetchWorker>(requests, std::move(probes[i]), i, count(),
+                                                  &time_now, stopping_, read_ahead);
+      const std::lock_guard lock(lanes_[i]->mutex);
+      lanes_[i]->served.push_back({requests.data(), std::move(worker)});
+    }
+    return {};
+  } catch (const std::bad_alloc&) {
+    remove(requests);
+    return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
+                      "no memory for fetch threads; free some and try again");
+  }
+}
+
+void FetchThreads::remove(std::span<const FetchRequests> requests) noexcept {
+  for (const auto& lane : lanes_) {
+    const std::lock_guard lock(lane->mutex);
+    std::erase_if(lane->served, [&requests](const Lane::Served& served) {
+      return served.requests == requests.data();
+    });
+  }
 }
 
 FetchThreads::~FetchThreads() {
   stopping_.store(true, std::memory_order_relaxed);
   cache_.wake_helpers();
-  for (std::thread& thread : threads_) thread.join();
+  for (const auto& lane : lanes_)
+    if (lane->thread.joinable()) lane->thread.join();
 }
 
 }  // namespace planetree::query

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <thread>
 #include <vector>
@@ -93,6 +94,11 @@ class FetchWorker {
   /// Takes one action and returns which. Pages that blocking queries wait for and fetch requests
   /// come before prefetching. If there are both, they alternate. Reading ahead comes last.
   Action work() noexcept;
+  /// The steps of work(), for a thread that has several workers: reads a page that is waited for or
+  /// serves a request; prefetches; reads ahead. Each returns kNone if there is nothing to do.
+  Action serve() noexcept;
+  Action prefetch() noexcept;
+  Action read_ahead() noexcept;
 
   /// Number of pages read for moving probes, and read ahead, so far. Any thread may call these.
   std::uint64_t pages_prefetched() const noexcept {
@@ -110,6 +116,7 @@ class FetchWorker {
   };
   static_assert(sizeof(Progress) <= kProbeBytes);
 
+  bool serve_any_probe(bool (FetchWorker::*step)(std::size_t) noexcept) noexcept;
   bool serve_request(std::size_t index) noexcept;
   bool prefetch_position(std::size_t index) noexcept;
   bool read_next_page() noexcept;
@@ -129,25 +136,34 @@ class FetchWorker {
   std::atomic<std::uint64_t> pages_read_ahead_{0};
 };
 
-/// A model's fetch threads, with one FetchWorker each. A blocking query wakes them. A real-time
-/// query cannot, because that takes a system call. So the threads poll for fetch requests, more
-/// often if they had something to do within the last second.
+/// The fetch threads of a cache, with one FetchWorker each for every model. A blocking query wakes
+/// them. A real-time query cannot, because that takes a system call. So the threads poll for fetch
+/// requests, more often if they had something to do within the last second.
 class FetchThreads {
  public:
   /// Memory of a thread besides its probe: the used part of its stack.
   static constexpr std::uint64_t kThreadBytes = 65536;
 
-  /// Starts one thread for each of `probes`.
+  /// Starts threads, 1 or more, which have nothing to do.
   ///
-  /// cache       must outlive this
-  /// requests    fetch requests of all probes, indexed by reader; must outlive this
-  /// read_ahead  pages to read while there is nothing else to do; must outlive this. Null: none
-  /// errors      kNoMemory
-  static Result<std::unique_ptr<FetchThreads>> start(
-      cache::PageCache& cache, std::span<FetchRequests> requests,
-      std::vector<std::unique_ptr<FetchProbe>> probes, ReadAhead* read_ahead);
+  /// cache   must outlive this
+  /// errors  kNoMemory
+  static Result<std::unique_ptr<FetchThreads>> start(cache::PageCache& cache, std::size_t count);
   /// Stops the threads. Waits for the pages that they are reading.
   ~FetchThreads();
+
+  std::size_t count() const noexcept { return lanes_.size(); }
+  /// Lets the threads serve the probes of a model.
+  ///
+  /// requests    fetch requests of all probes, indexed by reader; must outlive this, or be removed
+  /// probes      one for each thread
+  /// read_ahead  pages to read while there is nothing else to do; must outlive this. Null: none
+  /// errors      kNoMemory
+  /// threads     one at a time may call this and remove()
+  Result<void> add(std::span<FetchRequests> requests,
+                   std::vector<std::unique_ptr<FetchProbe>> probes, ReadAhead* read_ahead);
+  /// Ends what add() of these requests began. Waits for the pages that the threads are reading.
+  void remove(std::span<const FetchRequests> requests) noexcept;
 
   /// Time between two looks for work, where the last action of a thread was so long ago.
   static std::chrono::microseconds pause_after(std::chrono::nanoseconds since_action) noexcept;
@@ -156,19 +172,36 @@ class FetchThreads {
   std::uint64_t fetch_requests_served() const noexcept {
     return requests_served_.load(std::memory_order_relaxed);
   }
-  std::uint64_t pages_prefetched() const noexcept { return sum_of(&FetchWorker::pages_prefetched); }
-  std::uint64_t pages_read_ahead() const noexcept { return sum_of(&FetchWorker::pages_read_ahead); }
+  std::uint64_t pages_prefetched() const noexcept {
+    return pages_prefetched_.load(std::memory_order_relaxed);
+  }
+  std::uint64_t pages_read_ahead() const noexcept {
+    return pages_read_ahead_.load(std::memory_order_relaxed);
+  }
 
  private:
+  // What one thread serves. The thread holds the mutex while it works.
+  struct Lane {
+    struct Served {
+      const FetchRequests* requests;  // of the first probe
+      std::unique_ptr<FetchWorker> worker;
+    };
+    mutable std::mutex mutex;
+    std::vector<Served> served;
+    std::size_t first = 0;  // the models take turns to be the first one
+    std::thread thread;
+  };
+
   explicit FetchThreads(cache::PageCache& cache) : cache_(cache) {}
-  void run(FetchWorker& worker) noexcept;
-  std::uint64_t sum_of(std::uint64_t (FetchWorker::*pages)() const noexcept) const noexcept;
+  void run(Lane& lane) noexcept;
+  FetchWorker::Action work(Lane& lane) noexcept;
 
   cache::PageCache& cache_;
-  std::vector<std::unique_ptr<FetchWorker>> workers_;
-  std::vector<std::thread> threads_;
+  std::vector<std::unique_ptr<Lane>> lanes_;
   std::atomic<bool> stopping_{false};
   std::atomic<std::uint64_t> requests_served_{0};
+  std::atomic<std::uint64_t> pages_prefetched_{0};
+  std::atomic<std::uint64_t> pages_read_ahead_{0};
 };
 
 }  // namespace planetree::query

@@ -1,9 +1,6 @@
 #pragma once
 
-#include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -14,9 +11,9 @@
 #include "planetree/eviction_policy.h"
 #include "planetree/model.h"
 #include "query/file/open_layers.h"
+#include "query/serve/page_filler.h"
 #include "query/serve/query_arena.h"
 #include "storage/file/page_file.h"
-#include "storage/system/read_wait.h"
 
 namespace planetree::query {
 
@@ -73,31 +70,12 @@ class Pager {
   static std::uint64_t fetcher_count(const Limits& limits) noexcept {
     return std::uint64_t{limits.readers()} + 1;
   }
-  static std::uint64_t max_read_waits(const Limits& limits) noexcept {
-    return limits.use_io_uring ? std::min(fetcher_count(limits), kMaxReadWaits) : 0;
-  }
-  Result<cache::FillResult> fill(const cache::FillRequest& request) noexcept;
-  storage::ReadLimits read_limits(const cache::FillRequest& request) noexcept;
-  storage::ReadWait* read_wait_for(std::uint32_t fetcher) noexcept;
+  static PageFiller::Limits filler_limits(const storage::FileHeader& header,
+                                          const Limits& limits) noexcept;
 
   storage::PageFile file_;
   const OpenLayers opened_;
-  // Maximum number of fetchers that have a ReadWait. Each takes a file descriptor while the model
-  // is open. The first fetchers that need one get one; the others poll.
-  static constexpr std::uint64_t kMaxReadWaits = 16;
-  // Maximum time of one wait, longer than a disk takes that makes progress. A read that takes
-  // longer is left to a fetch thread.
-  static constexpr std::chrono::milliseconds kMaxReadWait{20};
-
-  std::unique_ptr<std::byte[]> scratch_;  // scratch_bytes() for each fetcher
-  struct FetcherWait {
-    storage::ReadWait wait;
-    bool is_granted = false;  // the fetcher may use `wait`
-  };
-  std::unique_ptr<FetcherWait[]> fetcher_waits_;  // indexed by fetcher
-  std::uint64_t max_read_waits_ = kMaxReadWaits;
-  std::atomic<std::uint64_t> granted_waits_{0};
-  std::chrono::milliseconds max_wait_{};
+  PageFiller filler_;
   std::unique_ptr<cache::PageCache> cache_;
   std::optional<QueryArena> query_arena_;
   bool query_arena_is_locked_ = false;

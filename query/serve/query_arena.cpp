@@ -20,6 +20,8 @@ QueryArena::Parts cut(cache::ArenaLayout& layout, const QueryArena::Needs& needs
   QueryArena::Parts parts;
   parts.model = std::as_writable_bytes(layout.cut<Line>(lines(needs.model_bytes)));
   parts.probes = std::as_writable_bytes(layout.cut<Line>(needs.readers * lines(needs.probe_bytes)));
+  parts.contacts =
+      std::as_writable_bytes(layout.cut<Line>(lines(needs.readers * needs.contact_bytes)));
   parts.fetch_requests = layout.cut<FetchRequests>(needs.readers);
   parts.field = std::as_writable_bytes(layout.cut<Line>(lines(needs.field_bytes)));
   parts.side_grid = layout.cut<std::byte>(needs.side_grid_bytes);

@@ -18,9 +18,10 @@ namespace planetree::query {
 class QueryArena {
  public:
   struct Needs {
-    std::uint32_t readers = 0;      ///< maximum number of probes, with those of threads
-    std::uint64_t model_bytes = 0;  ///< size of the model's state
-    std::uint64_t probe_bytes = 0;  ///< size of a probe's state
+    std::uint32_t readers = 0;        ///< maximum number of probes, with those of threads
+    std::uint64_t model_bytes = 0;    ///< size of the model's state
+    std::uint64_t probe_bytes = 0;    ///< size of a probe's state
+    std::uint64_t contact_bytes = 0;  ///< memory of each reader for a query for contacts
     std::uint64_t side_grid_bytes = 0;
     std::uint64_t field_bytes = 0;
     std::uint64_t page_trace_capacity = 0;  ///< words per reader; 0: no trace
@@ -32,6 +33,7 @@ class QueryArena {
     std::span<std::byte> model;               ///< aligned to a cache line
     std::span<std::byte> probes;              ///< see probe()
     std::span<FetchRequests> fetch_requests;  ///< indexed by reader
+    std::span<std::byte> contacts;            ///< one after another; aligned to a cache line
     std::span<std::byte> side_grid;
     std::span<std::byte> field;    ///< aligned to a cache line
     PageTraces* traces = nullptr;  ///< null without a trace

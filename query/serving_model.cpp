@@ -1,0 +1,69 @@
+#include "query/serving_model.h"
+
+#include <memory>
+#include <new>
+
+#include "octree/mask/cap_grid.h"
+#include "octree/mask/side_grid.h"
+#include "query/file/field_loading.h"
+#include "query/file/page_decoding.h"
+#include "query/probe_state.h"
+#include "query/serve/page_accessor.h"
+
+namespace planetree::query {
+namespace {
+
+void fill_grids(ServingModel& serving, cache::Reader& reader) {
+  PageAccessor accessor(reader, Wait::kForPages);
+  accessor.set_trace(serving.page_trace(reader.index()));
+  ModelGeometry& geometry = serving.geometry;
+  std::span<std::byte> memory = serving.arena.side_grid;
+  if (geometry.tree.caps) {
+    geometry.cap_grid.fill(geometry.caps, geometry.tree, accessor.pages(),
+                           memory.first(octree::CapGrid::kBytes));
+    memory = memory.subspan(octree::CapGrid::kBytes);
+  }
+  geometry.side_grid.fill(geometry.mask, geometry.tree, geometry.cap_grid,
+                          geometry.region.has_walls(), geometry.scale.exponent(), accessor.pages(),
+                          memory);
+}
+
+}  // namespace
+
+QueryArena::Needs arena_needs(const storage::FileHeader& header, const OpenLayers& opened,
+                              unsigned readers) noexcept {
+  QueryArena::Needs needs;
+  needs.readers = readers;
+  needs.model_bytes = sizeof(ServingModel);
+  needs.probe_bytes = sizeof(ProbeState);
+  if (opened.has_side() && header.model.mask_page_count > 0)
+    needs.side_grid_bytes = octree::SideGrid::bytes(header.model.triangle_count);
+  if (opened.has_side() && header.model.cap_count > 0)
+    needs.side_grid_bytes += octree::CapGrid::kBytes;
+  if (opened.has_field()) needs.field_bytes = field_shape(header.model).bytes();
+  return needs;
+}
+
+ServingModelPtr make_serving_model(const storage::FileHeader& header, const OpenLayers& opened,
+                                   cache::PageCache& cache, const QueryArena::Parts& arena) {
+  ServingModelPtr serving(::new (arena.model.data()) ServingModel(header, opened, cache, arena));
+  const std::size_t contacts = arena.contacts.size() / sizeof(octree::ContactTriangles);
+  auto* const first = reinterpret_cast<octree::ContactTriangles*>(arena.contacts.data());
+  std::uninitialized_value_construct_n(first, contacts);
+  serving->contacts = {first, contacts};
+  return serving;
+}
+
+Result<LoadedModel> load_model(ServingModel& serving, const storage::PageFile& file,
+                               const OpenLayers& opened, cache::Reader& reader) {
+  if (opened.has_side()) fill_grids(serving, reader);
+  if (!opened.has_field()) return LoadedModel{};
+  const auto field = load_field(file, serving.arena.field);
+  if (!field) return field.error();
+  ModelGeometry& geometry = serving.geometry;
+  geometry.field.fill(field_shape(file.header().model), field->points,
+                      geometry.tree.has_strays || geometry.region.has_walls());
+  return LoadedModel{field->is_damaged};
+}
+
+}  // namespace planetree::query
