@@ -20,6 +20,7 @@ set(planetree_headers
   point_shell.h
   pose.h
   probe.h
+  scene.h
   stats.h
   trace.h
   types.h)
@@ -30,7 +31,7 @@ set(planetree_library_layers
   geometry page field attributes traversal nearest winding mask
   builder_job builder_mesh_stream builder_mesh_gltf builder_mesh_obj builder_mesh builder_sort builder_surface builder_tree
   builder_mask builder_field builder_attributes builder
-  query_file query_answer query_serve query query_shell c)
+  query_file query_answer query_serve query query_shell query_scene c)
 
 function(planetree_add_library name)
   add_library(${name} ${ARGN})

@@ -18,6 +18,7 @@
 #include "planetree/point_shell.h"
 #include "planetree/pose.h"
 #include "planetree/probe.h"
+#include "planetree/scene.h"
 #include "planetree/stats.h"
 #include "planetree/trace.h"
 #include "planetree/types.h"

@@ -25,6 +25,7 @@ std::optional<RigidTransform> RigidTransform::of(const Pose& pose) {
   transform.rotation_error_ = kRotationRounding + 2 * off_unit;
   // The length of t is at most twice its greatest coordinate.
   transform.translation_error_ = 2 * kTranslationRounding * greatest;
+  transform.is_identity_ = length2 == 1 && x == 0 && y == 0 && z == 0 && greatest == 0;
   return transform;
 }
 

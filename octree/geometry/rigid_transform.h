@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "octree/geometry/error_bounds.h"
@@ -32,6 +33,10 @@ namespace planetree::octree {
 ///
 /// The sum is below (55 u + 2 |n - 1|) |p| + 3 u |t|. The bound is (64 u + 2 |n - 1|) |p| + 4 u
 /// |t|, and an absolute term for products that underflow.
+///
+/// The inverse maps p to R^T (p - t). The difference errs by u |p - t|, the transposed matrix by as
+/// much as the matrix, and its product by 5.4 u |p - t|; a translation that was rounded adds u |t|.
+/// So the same bound holds with |p - t| in the place of |p|.
 class RigidTransform {
  public:
   /// Limit of the coordinates of points, and of those of a translation.
@@ -45,13 +50,35 @@ class RigidTransform {
     const Vec3 turned = rotate(p);
     return {turned.x + translation_.x, turned.y + translation_.y, turned.z + translation_.z};
   }
+  /// Maps a point of the model's frame to the body's frame: the inverse of apply(). Coordinates are
+  /// at most kMaxCoordinate.
+  Vec3 apply_inverse(const Vec3& p) const {
+    return rotate_inverse({p.x - translation_.x, p.y - translation_.y, p.z - translation_.z});
+  }
+  /// Whether points stay as they are: no rotation and no translation, without any error.
+  bool is_identity() const { return is_identity_; }
+  const Vec3& translation() const { return translation_; }
+  /// Maps a direction to the body's frame: R^T p.
+  Vec3 rotate_inverse(const Vec3& p) const {
+    return {row_x_.x * p.x + row_y_.x * p.y + row_z_.x * p.z,
+            row_x_.y * p.x + row_y_.y * p.y + row_z_.y * p.z,
+            row_x_.z * p.x + row_y_.z * p.y + row_z_.z * p.z};
+  }
+  /// Maps the half extents of a box to those of the box around it when it is turned.
+  Vec3 rotate_extents(const Vec3& h) const {
+    const auto sum = [&h](const Vec3& row) {
+      return std::fabs(row.x) * h.x + std::fabs(row.y) * h.y + std::fabs(row.z) * h.z;
+    };
+    return {sum(row_x_), sum(row_y_), sum(row_z_)};
+  }
   /// Maps a direction: R p.
   Vec3 rotate(const Vec3& p) const {
     return {row_x_.x * p.x + row_x_.y * p.y + row_x_.z * p.z,
             row_y_.x * p.x + row_y_.y * p.y + row_y_.z * p.z,
             row_z_.x * p.x + row_z_.y * p.y + row_z_.z * p.z};
   }
-  /// Bound on the distance of apply(p) from the true position, for |p| <= reach.
+  /// Bound on the distance of apply(p) from the true position, for |p| <= reach. The same of
+  /// apply_inverse(p), for |p - t| <= reach.
   double position_error(double reach) const {
     return rotation_error_ * reach + translation_error_ + kUnresolvedLength;
   }
@@ -63,6 +90,7 @@ class RigidTransform {
   Vec3 translation_;
   double rotation_error_ = 0;     // as a share of |p|
   double translation_error_ = 0;  // model units
+  bool is_identity_ = false;
 };
 
 }  // namespace planetree::octree

@@ -1,0 +1,122 @@
+#include "query/scene/instance_view.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "octree/geometry/error_bounds.h"
+#include "octree/geometry/strict_math.h"
+#include "query/scene/scene_model.h"
+
+namespace planetree::query {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+using Numbers = Eigen::Map<Eigen::ArrayXd>;
+using ConstNumbers = Eigen::Map<const Eigen::ArrayXd>;
+
+double length_above(const Vec3& v) {
+  return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}) * 2;
+}
+
+}  // namespace
+
+void InstanceView::cut(cache::ArenaLayout& layout, std::uint32_t max_instances,
+                       InstanceView& view) {
+  view.ids_ = layout.cut<InstanceId>(max_instances);
+  view.models_ = layout.cut<const SceneModel*>(max_instances);
+  view.versions_ = layout.cut<std::uint64_t>(max_instances);
+  view.transforms_ = layout.cut<octree::RigidTransform>(max_instances);
+  for (std::span<double>& corners : view.boxes_) corners = layout.cut<double>(max_instances);
+  view.squared_ = layout.cut<double>(max_instances);
+}
+
+void InstanceView::refresh(std::span<const InstanceSlot> slots, std::uint64_t changes) noexcept {
+  if (changes == changes_) return;
+  changes_ = changes;
+  is_still_ = true;
+  size_ = 0;
+  for (const InstanceSlot& slot : slots) {
+    const SceneModel* const model = slot.model.load(std::memory_order_seq_cst);
+    if (!model) continue;
+    const InstanceId id{slot.id.load(std::memory_order_relaxed)};
+    if (ids_[size_] != id || models_[size_] != model) {
+      ids_[size_] = id;
+      models_[size_] = model;
+      versions_[size_] = 0;
+    }
+    load(size_++, slot);
+  }
+}
+
+// A placement that is being written is read after the next change, which its writer counts.
+void InstanceView::load(std::size_t index, const InstanceSlot& slot) noexcept {
+  Placement placement;
+  if (slot.placement.load_newer(versions_[index], placement)) {
+    transforms_[index] = *octree::RigidTransform::of(placement.pose);
+    place_box(index);
+  } else if (!is_placed(index)) {
+    for (std::size_t i = 0; i < kCorners; ++i) boxes_[i][index] = i < 3 ? -kInfinity : kInfinity;
+  }
+  if (!is_placed(index) || !transforms_[index].is_identity()) is_still_ = false;
+}
+
+// The box of the turned box of the model. Rounding of the box itself is far below the error of a
+// position, but for the default pose, where there is none.
+void InstanceView::place_box(std::size_t index) noexcept {
+  const ModelInfo& info = models_[index]->info;
+  const octree::RigidTransform& transform = transforms_[index];
+  Vec3 lower = info.box_lower, upper = info.box_upper;
+  if (!transform.is_identity()) {
+    const Vec3 half{(upper.x - lower.x) / 2, (upper.y - lower.y) / 2, (upper.z - lower.z) / 2};
+    const Vec3 centre = transform.apply({lower.x + half.x, lower.y + half.y, lower.z + half.z});
+    const Vec3 extents = transform.rotate_extents(half);
+    const double reach = length_above(lower) + length_above(upper);
+    // Of the centre, of the extents, and of the sums and differences here.
+    const double error = 4 * transform.position_error(reach) +
+                         0x1p-50 * (length_above(centre) + length_above(extents));
+    lower = {centre.x - extents.x - error, centre.y - extents.y - error,
+             centre.z - extents.z - error};
+    upper = {centre.x + extents.x + error, centre.y + extents.y + error,
+             centre.z + extents.z + error};
+  }
+  const double corners[kCorners] = {lower.x, lower.y, lower.z, upper.x, upper.y, upper.z};
+  for (std::size_t i = 0; i < kCorners; ++i) boxes_[i][index] = corners[i];
+}
+
+std::size_t InstanceView::find(InstanceId id, std::size_t likely) const noexcept {
+  if (likely < size_ && ids_[likely] == id) return likely;
+  const auto ids = ids_.first(size_);
+  return static_cast<std::size_t>(std::find(ids.begin(), ids.end(), id) - ids.begin());
+}
+
+void InstanceView::compute_bounds(const Vec3& point) noexcept {
+  const auto count = static_cast<Eigen::Index>(size_);
+  const auto numbers = [count](std::span<double> all) { return ConstNumbers(all.data(), count); };
+  const auto gap = [&](std::size_t axis, double at) {
+    return (numbers(boxes_[axis]) - at).max(at - numbers(boxes_[axis + 3])).max(0.0);
+  };
+  Numbers squared(squared_.data(), count);
+  // What overflows is not infinite, which would mean visited.
+  squared = (gap(0, point.x).square() + gap(1, point.y).square() + gap(2, point.z).square())
+                .min(std::numeric_limits<double>::max());
+}
+
+std::size_t InstanceView::nearest() const noexcept {
+  const auto all = squared_.first(size_);
+  const auto least = std::min_element(all.begin(), all.end());
+  return least == all.end() || *least == kInfinity ? size_
+                                                   : static_cast<std::size_t>(least - all.begin());
+}
+
+double InstanceView::bound(std::size_t index) const noexcept {
+  // The square errs by less than 2^-50 of itself, and by 2^-1074 if it underflows.
+  const double squared = squared_[index];
+  return squared < 0x1p-1000 ? 0 : std::sqrt(squared) * (1 - 0x1p-49);
+}
+
+void InstanceView::mark_visited(std::size_t index) noexcept { squared_[index] = kInfinity; }
+
+}  // namespace planetree::query

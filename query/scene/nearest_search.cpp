@@ -1,0 +1,148 @@
+#include "query/scene/nearest_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "octree/geometry/error_bounds.h"
+#include "octree/geometry/strict_math.h"
+#include "query/answer/closest_point.h"
+#include "query/answer/query_context.h"
+
+namespace planetree::query {
+namespace {
+
+double rounded_down(double value) { return value - octree::kEndRounding * std::fabs(value); }
+double rounded_up(double value) { return value + octree::kEndRounding * std::fabs(value); }
+
+// Moves an answer from the frame of an instance to the world.
+void to_world(const octree::RigidTransform& transform, double error, std::uint32_t parts,
+              ClosestPoint& answer) {
+  if (transform.is_identity()) return;
+  // A surface that is nearer than the error may lie between the query and its rounded position.
+  if ((parts & (kSide | kNormal)) != 0 && answer.lower <= error &&
+      answer.status != Status::kBeyondMaxDistance) {
+    answer.side = Side::kUnknown;
+    answer.status = Status::kDegraded;
+  }
+  answer.lower = std::max(0.0, rounded_down(answer.lower - error));
+  answer.upper = rounded_up(answer.upper + error);
+  if (answer.status == Status::kBeyondMaxDistance) return;
+  answer.point = transform.apply(answer.point);
+  answer.normal = transform.rotate(answer.normal);
+}
+
+}  // namespace
+
+SceneProbeState::NearestSearch::NearestSearch(SceneProbeState& scene, const Vec3& query,
+                                              const QueryOptions& options) noexcept
+    : scene_(scene),
+      view_(scene.view_),
+      query_(query),
+      options_(with_defaults(options)),
+      work_left_(options_.max_work),
+      best_(unanswered(Status::kBeyondMaxDistance)),
+      best_index_(view_.size()) {
+  best_.lower = options.max_distance;
+}
+
+SceneClosestPoint SceneProbeState::NearestSearch::run() noexcept {
+  if (view_.size() == 0) return {best_};
+  view_.compute_bounds(query_);
+  // All parts of the first one, which is the nearest one more often than not.
+  visit(first(), options_.parts);
+  for (std::size_t next = view_.nearest(); next < view_.size(); next = view_.nearest()) {
+    const double bound = view_.bound(next);
+    if (bound > std::min(upper_, options_.max_distance)) break;
+    if (may_stop(bound)) {
+      lower_ = std::min(lower_, bound);
+      unproven_ = std::min(unproven_, bound);
+      break;
+    }
+    visit(next, kDistance);
+  }
+  return finish();
+}
+
+// The instance that answered last, if its box is near enough to be worth it.
+std::size_t SceneProbeState::NearestSearch::first() const noexcept {
+  const std::size_t nearest = view_.nearest();
+  const std::size_t last = view_.find(scene_.last_instance_, scene_.last_index_);
+  return last < view_.size() && view_.bound(last) <= view_.bound(nearest) ? last : nearest;
+}
+
+bool SceneProbeState::NearestSearch::may_stop(double bound) const noexcept {
+  return options_.max_error > 0 && upper_ - std::min(lower_, bound) <= options_.max_error;
+}
+
+void SceneProbeState::NearestSearch::visit(std::size_t index, std::uint32_t parts) noexcept {
+  view_.mark_visited(index);
+  if (!view_.is_placed(index)) {
+    lower_ = unproven_ = 0;
+    return;
+  }
+  offer(index, ask(index, parts, std::min(upper_, options_.max_distance)), parts);
+}
+
+// Returns what an instance answers, in the world frame.
+ClosestPoint SceneProbeState::NearestSearch::ask(std::size_t index, std::uint32_t parts,
+                                                 double max_distance) noexcept {
+  const LocalPoint local = scene_.to_local(index, query_);
+  QueryOptions options = options_;
+  options.parts = parts;
+  options.max_distance = local.error == 0 ? max_distance : rounded_up(max_distance + local.error);
+  options.max_work = work_left_;
+  ProbeState& probe = scene_.probe(index);
+  const std::uint64_t before = probe.work_spent();
+  ClosestPoint answer = probe.closest_point(local.point, options);
+  if (work_left_ != QueryOptions::kNoLimit)
+    work_left_ -= static_cast<std::uint32_t>(
+        std::min<std::uint64_t>(work_left_, probe.work_spent() - before));
+  to_world(view_.transform(index), local.error, parts, answer);
+  return answer;
+}
+
+bool SceneProbeState::NearestSearch::is_better(const ClosestPoint& answer,
+                                               std::size_t index) const noexcept {
+  if (best_index_ == view_.size()) return true;
+  if (answer.status == Status::kBeyondMaxDistance) return false;
+  if (best_.status == Status::kBeyondMaxDistance || answer.distance < best_.distance) return true;
+  return answer.distance == best_.distance && view_.id(index) < view_.id(best_index_);
+}
+
+void SceneProbeState::NearestSearch::offer(std::size_t index, const ClosestPoint& answer,
+                                           std::uint32_t parts) noexcept {
+  lower_ = std::min(lower_, answer.lower);
+  upper_ = std::min(upper_, answer.upper);
+  if (answer.status == Status::kDegraded || answer.status == Status::kWithinError)
+    unproven_ = std::min(unproven_, answer.lower);
+  if (!is_better(answer, index)) return;
+  best_ = answer;
+  best_index_ = index;
+  best_parts_ = parts;
+}
+
+SceneClosestPoint SceneProbeState::NearestSearch::finish() noexcept {
+  if (best_index_ == view_.size()) {  // none is placed
+    best_ = unanswered(Status::kDegraded);
+    return {best_};
+  }
+  if (best_parts_ != options_.parts && best_.status != Status::kBeyondMaxDistance) {
+    best_ = ask(best_index_, options_.parts, options_.max_distance);
+    lower_ = std::min(lower_, best_.lower);
+    upper_ = std::min(upper_, best_.upper);
+  }
+  SceneClosestPoint answer{best_};
+  if (best_.status != Status::kBeyondMaxDistance) {
+    answer.instance = view_.id(best_index_);
+    answer.upper = upper_;
+  }
+  answer.lower = std::min(lower_, options_.max_distance);
+  if (best_.status != Status::kDegraded && unproven_ < upper_)
+    answer.status = answer.upper - answer.lower <= options_.max_error ? Status::kWithinError
+                                                                      : Status::kDegraded;
+  scene_.last_instance_ = view_.id(best_index_);
+  scene_.last_index_ = best_index_;
+  return answer;
+}
+
+}  // namespace planetree::query

@@ -1,0 +1,156 @@
+#include "query/scene/scene_probe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <utility>
+
+#include "octree/geometry/error_bounds.h"
+#include "octree/geometry/fp_environment.h"
+#include "octree/geometry/strict_math.h"
+#include "query/answer/closest_point.h"
+#include "query/answer/query_context.h"
+#include "query/scene/nearest_search.h"
+#include "query/scene/scene_model.h"
+#include "query/shell/vectors.h"
+
+namespace planetree::query {
+
+SceneProbeState::LocalPoint SceneProbeState::to_local(std::size_t index,
+                                                      const Vec3& point) const noexcept {
+  const octree::RigidTransform& transform = view_.transform(index);
+  if (transform.is_identity()) return {point, 0};
+  const double reach = upper_length(point - transform.translation());
+  return {transform.apply_inverse(point), transform.position_error(reach)};
+}
+
+bool SceneProbeState::can_place(const Vec3& point) const noexcept {
+  constexpr double kMax = octree::RigidTransform::kMaxCoordinate;
+  return view_.is_still() ||
+         (std::fabs(point.x) <= kMax && std::fabs(point.y) <= kMax && std::fabs(point.z) <= kMax);
+}
+
+SceneClosestPoint SceneProbeState::closest_point(const Vec3& query,
+                                                 const QueryOptions& options) noexcept {
+  if (!is_valid(query, options)) return {unanswered(Status::kBadQuery)};
+  const Section section(*this);
+  if (!can_place(query)) return {unanswered(Status::kBadQuery)};
+  if ((options.parts & (kDistance | kNormal)) != 0)
+    return NearestSearch(*this, query, options).run();
+  SceneClosestPoint answer{unanswered(Status::kExact)};
+  if ((options.parts & kSide) == 0) return answer;
+  const SceneContainment side = find_side(query, options);
+  answer.side = side.side;
+  answer.status = side.status;
+  answer.instance = side.instance;
+  return answer;
+}
+
+SceneContainment SceneProbeState::contains(const Vec3& query,
+                                           const QueryOptions& options) noexcept {
+  if (!is_valid(query, options)) return {};
+  const Section section(*this);
+  return can_place(query) ? find_side(query, options) : SceneContainment{};
+}
+
+// Inside of one instance is inside, whatever the others say.
+SceneContainment SceneProbeState::find_side(const Vec3& query,
+                                            const QueryOptions& options) noexcept {
+  QueryOptions left = with_defaults(options);
+  view_.compute_bounds(query);
+  bool is_known = true, is_on_surface = false;
+  InstanceId inside = kNoInstance, on_surface = kNoInstance;
+  for (std::size_t index = 0; index < view_.size(); ++index) {
+    const Containment side = side_of(index, query, left);
+    is_known = is_known && side.side != Side::kUnknown;
+    if (side.side == Side::kInside) inside = std::min(inside, view_.id(index));
+    if (side.side != Side::kOnSurface) continue;
+    is_on_surface = true;
+    on_surface = std::min(on_surface, view_.id(index));
+  }
+  if (inside != kNoInstance) return {{Side::kInside, Status::kExact}, inside};
+  if (!is_known) return {{Side::kUnknown, Status::kDegraded}, kNoInstance};
+  if (is_on_surface) return {{Side::kOnSurface, Status::kExact}, on_surface};
+  return {{Side::kOutside, Status::kExact}, kNoInstance};
+}
+
+Containment SceneProbeState::side_of(std::size_t index, const Vec3& query,
+                                     QueryOptions& left) noexcept {
+  if (!view_.is_placed(index)) return {Side::kUnknown, Status::kDegraded};
+  const SideMeans means = view_.model(index).serving->geometry.side_means(left.side_rule);
+  // A solid has no inside out of its box. The other means decide anywhere.
+  if (means == SideMeans::kWindingNumber && view_.bound(index) > 0)
+    return {Side::kOutside, Status::kExact};
+  const LocalPoint local = to_local(index, query);
+  ProbeState& probe = this->probe(index);
+  const std::uint64_t before = probe.work_spent();
+  Containment side = probe.contains(local.point, left);
+  if (local.error > 0 && side.side != Side::kUnknown && is_surface_near(probe, local, left))
+    side = {Side::kUnknown, Status::kDegraded};
+  if (left.max_work != QueryOptions::kNoLimit)
+    left.max_work -= static_cast<std::uint32_t>(
+        std::min<std::uint64_t>(left.max_work, probe.work_spent() - before));
+  return side;
+}
+
+// Whether the surface may lie between a point and where it would be without rounding.
+bool SceneProbeState::is_surface_near(ProbeState& probe, const LocalPoint& local,
+                                      QueryOptions options) noexcept {
+  options.parts = kDistance;
+  options.max_error = 0;
+  options.max_distance = local.error;
+  return probe.closest_point(local.point, options).lower < local.error;
+}
+
+void SceneProbeState::note_motion(const Vec3& position, const Vec3& velocity) noexcept {
+  const Section section(*this);
+  const std::size_t index = view_.find(last_instance_, last_index_);
+  if (index == view_.size() || !view_.is_placed(index) || !can_place(position)) return;
+  const octree::RigidTransform& transform = view_.transform(index);
+  Placement placement;
+  std::uint64_t seen = 0;
+  Vec3 relative = velocity;
+  if (scene_.slot(last_instance_).placement.load_newer(seen, placement))
+    relative = velocity - placement.twist.linear -
+               cross(placement.twist.angular, position - transform.translation());
+  probe(index).note_motion(to_local(index, position).point, transform.rotate_inverse(relative));
+}
+
+}  // namespace planetree::query
+
+namespace planetree {
+
+Result<SceneProbe> SceneProbe::create(const Scene& scene) {
+  auto reader = scene.state_->claim_probe();
+  if (!reader) return reader.error();
+  std::unique_ptr<query::SceneProbeState> state(
+      new (std::nothrow) query::SceneProbeState(*scene.state_, *std::move(reader)));
+  if (!state)
+    return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
+                      "no memory for a probe; free some and try again");
+  return SceneProbe(std::move(state));
+}
+
+SceneProbe::SceneProbe(std::unique_ptr<query::SceneProbeState> state) noexcept
+    : state_(std::move(state)) {}
+SceneProbe::SceneProbe(SceneProbe&&) noexcept = default;
+SceneProbe& SceneProbe::operator=(SceneProbe&&) noexcept = default;
+SceneProbe::~SceneProbe() = default;
+
+SceneClosestPoint SceneProbe::closest_point(Vec3 query, const QueryOptions& options) noexcept {
+  const octree::FpEnvironmentGuard host;
+  return state_->closest_point(query, options);
+}
+
+SceneContainment SceneProbe::contains(Vec3 query, const QueryOptions& options) noexcept {
+  const octree::FpEnvironmentGuard host;
+  return state_->contains(query, options);
+}
+
+void SceneProbe::motion(Vec3 position, Vec3 velocity) noexcept {
+  const octree::FpEnvironmentGuard host;
+  state_->note_motion(position, velocity);
+}
+
+}  // namespace planetree

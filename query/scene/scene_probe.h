@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include "cache/reader.h"
+#include "planetree/scene.h"
+#include "query/scene/instance_view.h"
+#include "query/scene/scene_state.h"
+
+namespace planetree::query {
+
+/// The implementation of SceneProbe.
+class SceneProbeState {
+ public:
+  /// scene   must outlive the probe
+  /// reader  of SceneState::claim_probe()
+  SceneProbeState(const SceneState& scene, cache::Reader reader) noexcept
+      : reader_(std::move(reader)),
+        scene_(scene),
+        number_(scene.probe_of(reader_)),
+        view_(scene.view(number_)) {}
+
+  /// See the functions of SceneProbe.
+  SceneClosestPoint closest_point(const Vec3& query, const QueryOptions& options) noexcept;
+  SceneContainment contains(const Vec3& query, const QueryOptions& options) noexcept;
+  void note_motion(const Vec3& position, const Vec3& velocity) noexcept;
+
+ private:
+  class Section;
+  class NearestSearch;
+
+  /// A point in the frame of an instance.
+  struct LocalPoint {
+    Vec3 point;
+    double error;  ///< bound on its distance from the true position
+  };
+
+  ProbeState& probe(std::size_t index) const noexcept {
+    return view_.model(index).probe(reader_.index());
+  }
+  SceneContainment find_side(const Vec3& query, const QueryOptions& options) noexcept;
+  Containment side_of(std::size_t index, const Vec3& query, QueryOptions& left) noexcept;
+  static bool is_surface_near(ProbeState& probe, const LocalPoint& local,
+                              QueryOptions options) noexcept;
+  LocalPoint to_local(std::size_t index, const Vec3& point) const noexcept;
+  /// Whether a point can be brought into the frames of all instances.
+  bool can_place(const Vec3& point) const noexcept;
+
+  // First, so that it is destroyed last: then another probe may have the view.
+  cache::Reader reader_;
+  const SceneState& scene_;
+  const std::uint32_t number_;
+  InstanceView& view_;
+  InstanceId last_instance_ = kNoInstance;  // that answered last
+  std::size_t last_index_ = 0;              // it probably has
+};
+
+/// A section of the scene: while it lasts, the models that the view has are kept.
+class SceneProbeState::Section {
+ public:
+  explicit Section(SceneProbeState& probe) noexcept : probe_(probe) {
+    const std::uint64_t changes = probe.scene_.sections().enter(probe.number_);
+    probe.view_.refresh(probe.scene_.slots(), changes);
+  }
+  ~Section() { probe_.scene_.sections().leave(probe_.number_); }
+  Section(const Section&) = delete;
+  Section& operator=(const Section&) = delete;
+
+ private:
+  SceneProbeState& probe_;
+};
+
+}  // namespace planetree::query
