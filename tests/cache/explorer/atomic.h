@@ -30,6 +30,10 @@ class Atomic {
     return static_cast<T>(
         Execution::current().exchange(atomic_, static_cast<std::uint64_t>(value), order));
   }
+  T fetch_add(T value, std::memory_order order) noexcept {
+    return static_cast<T>(
+        Execution::current().fetch_add(atomic_, static_cast<std::uint64_t>(value), order));
+  }
 
  private:
   std::size_t atomic_;

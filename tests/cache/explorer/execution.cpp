@@ -150,6 +150,15 @@ std::uint64_t Execution::exchange(std::size_t atomic, std::uint64_t value,
   return replaced;
 }
 
+std::uint64_t Execution::fetch_add(std::size_t atomic, std::uint64_t value,
+                                   std::memory_order order) {
+  before_step();
+  const std::uint64_t replaced = memory_.fetch_add(running_, atomic, value, order);
+  threads_[running_].did_visible_step = true;
+  trace_.add({running_, "adds to atomic", atomic, value, name_of(order), 0});
+  return replaced;
+}
+
 void Execution::read_plain(std::size_t plain) {
   note("reads plain", plain);
   if (!memory_.read_plain(running_, plain)) fail("a data race: a read after a write");

@@ -21,11 +21,11 @@ using MakeProgram = std::function<std::unique_ptr<Program>()>;
 /// Executes a program, one run after the other. `choices` decides which thread runs next and which
 /// store a load returns.
 ///
-/// Threads are switched only after a visible step: a store, an exchange, a lock or an unlock. A
-/// load need not be a switch point. It could equally be executed later, directly before the next
-/// visible step of its thread: there it may still return the same store, because older stores stay
-/// readable, or a newer one. A plain access need not be one either: a race is found whichever
-/// access comes first. So no behaviour is lost, and far fewer runs are needed.
+/// Threads are switched only after a visible step: a store, an exchange, an addition, a lock or an
+/// unlock. A load need not be a switch point. It could equally be executed later, directly before
+/// the next visible step of its thread: there it may still return the same store, because older
+/// stores stay readable, or a newer one. A plain access need not be one either: a race is found
+/// whichever access comes first. So no behaviour is lost, and far fewer runs are needed.
 class Execution {
  public:
   /// The second argument limits how often, in each run, a thread that could continue is preempted.
@@ -47,6 +47,7 @@ class Execution {
   std::uint64_t load(std::size_t atomic, std::memory_order order);
   void store(std::size_t atomic, std::uint64_t value, std::memory_order order);
   std::uint64_t exchange(std::size_t atomic, std::uint64_t value, std::memory_order order);
+  std::uint64_t fetch_add(std::size_t atomic, std::uint64_t value, std::memory_order order);
 
   std::size_t add_plain() { return memory_.add_plain(); }
   void read_plain(std::size_t plain);

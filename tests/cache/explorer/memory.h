@@ -21,7 +21,7 @@ namespace planetree::explorer {
 /// - loads of stores that are executed later (load buffering; relaxed loads only);
 /// - modification orders that differ from the order of execution where several threads store to one
 ///   atomic. With one writing thread, or with threads that exclude each other, they cannot differ.
-/// The only read-modify-write is exchange. There are no fences.
+/// The only read-modify-writes are exchange and fetch_add. There are no fences.
 class Memory {
  public:
   /// Result of a load.
@@ -43,6 +43,10 @@ class Memory {
              std::memory_order order);
   std::uint64_t exchange(std::uint32_t thread, std::size_t atomic, std::uint64_t value,
                          std::memory_order order);
+  std::uint64_t fetch_add(std::uint32_t thread, std::size_t atomic, std::uint64_t value,
+                          std::memory_order order) {
+    return exchange(thread, atomic, histories_[atomic].back().value + value, order);
+  }
 
   /// False if this races with a write by another thread.
   [[nodiscard]] bool read_plain(std::uint32_t thread, std::size_t plain);

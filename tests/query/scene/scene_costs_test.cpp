@@ -1,0 +1,108 @@
+// What queries of scenes cost besides processor time, while every instance moves.
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <thread>
+#include <vector>
+
+#include "tests/cache/allocation_count.h"
+#include "tests/query/call_trap.h"
+#include "tests/query/lock_count.h"
+#include "tests/query/scene/scene_fixture.h"
+
+namespace planetree::query {
+namespace {
+
+using SceneCosts = SceneFixture;
+
+constexpr QueryOptions kNow{.wait = Wait::kNever};
+
+struct Ticks {
+  std::uint64_t allocations = 0, locks = 0, calls = 0, degraded = 0;
+};
+
+// Moves all instances and asks, over and over.
+void run_ticks(Scene& scene, SceneProbe& probe, const std::vector<InstanceId>& ids, int ticks,
+               std::uint64_t& degraded) {
+  for (int tick = 0; tick < ticks; ++tick) {
+    const double turn = 0.001 * (tick % 500);
+    for (std::size_t i = 0; i < ids.size(); ++i)
+      (void)scene.set_pose(ids[i], {{std::sqrt(1 - turn * turn), 0, turn, 0},
+                                    {2.5 * static_cast<double>(i) + turn, 0, 0}});
+    const Vec3 tool{0.07 * (tick % 300), 0.4, 1.05};
+    degraded += probe.closest_point(tool, kNow).status == Status::kDegraded;
+    probe.contains({tool.x, 0.2, 0.3}, kNow);
+    probe.motion(tool, {70, 0, 0});
+  }
+}
+
+TEST_F(SceneCosts, AllocateLockAndCallNothing) {
+  if (!cache::allocations_are_counted() || !locks_are_counted())
+    GTEST_SKIP() << "a sanitizer counts instead";
+  SceneOptions options = small_options();
+  options.memory_budget_bytes = std::uint64_t{3} << 20;
+  Scene scene = make_scene(options);
+  std::vector<InstanceId> ids;
+  for (int i = 0; i < 8; ++i) ids.push_back(add(scene, i % 2 ? ball_ : fine_ball_));
+  SceneProbe probe = make_probe(scene);
+  Ticks counts;
+  bool is_trapped = false;
+  std::uint64_t warm = 0;
+  std::thread thread([&] {
+    run_ticks(scene, probe, ids, 200, warm);
+    counts.allocations = cache::allocation_count();
+    counts.locks = lock_count();
+    is_trapped = set_call_trap();
+    counts.calls = trapped_calls();
+    run_ticks(scene, probe, ids, 3000, counts.degraded);
+    counts.calls = trapped_calls() - counts.calls;
+    counts.locks = lock_count() - counts.locks;
+    counts.allocations = cache::allocation_count() - counts.allocations;
+  });
+  thread.join();
+  EXPECT_TRUE(is_trapped);
+  EXPECT_EQ(counts.allocations, 0u);
+  EXPECT_EQ(counts.locks, 0u);
+  EXPECT_EQ(counts.calls, 0u);
+  EXPECT_GT(counts.degraded, 0u) << "no page was ever missing";
+  EXPECT_LT(counts.degraded, 3000u);
+}
+
+// Two threads ask while one moves an instance and another adds and removes others.
+TEST_F(SceneCosts, ThreadsSeeEachInstanceSomewhereOnItsWay) {
+  Scene scene = make_scene();
+  const InstanceId ball = add(scene, ball_, at(0));
+  std::atomic<bool> stop{false};
+  std::atomic<std::uint64_t> queries{0};
+  const auto ask = [&](Wait wait) {
+    SceneProbe probe = make_probe(scene);
+    while (!stop) {
+      // The ball's centre is between x = 0 and 1; others are at least 6 away.
+      const SceneClosestPoint answer = probe.closest_point({0.5, 0, 2}, {.wait = wait});
+      ASSERT_LE(answer.lower, std::hypot(0.5, 0.3, 2.2) - 0.99);
+      ASSERT_GE(answer.upper, 0.99);
+      if (answer.status == Status::kExact) {
+        ASSERT_EQ(answer.instance, ball);
+      }
+      ++queries;
+    }
+  };
+  std::thread one(ask, Wait::kForPages), two(ask, Wait::kNever);
+  std::thread mover([&] {
+    for (int i = 0; !stop; ++i) {
+      ASSERT_TRUE(scene.set_pose(ball, turned(0.01 * (i % 100), 0.005 * (i % 100))));
+    }
+  });
+  for (int i = 0; i < 100 || queries < 2000; ++i) {
+    const InstanceId added = add(scene, i % 2 ? ball_ : fine_ball_, at(10 + i % 7));
+    ASSERT_TRUE(scene.remove(added));
+  }
+  stop = true;
+  one.join();
+  two.join();
+  mover.join();
+}
+
+}  // namespace
+}  // namespace planetree::query
