@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 
+#include "planetree/contact.h"
 #include "planetree/error.h"
 #include "planetree/eviction_policy.h"
 #include "planetree/export.h"
@@ -31,7 +32,8 @@ enum class InstanceId : std::uint64_t {};
 /// Value of an InstanceId that is that of no instance.
 inline constexpr InstanceId kNoInstance{std::numeric_limits<std::uint64_t>::max()};
 
-/// How a rigid body moves, in the world's axes. Used to predict which pages queries will need.
+/// How a rigid body moves, in the world's axes. SceneProbe::first_contact takes it into account,
+/// and it tells which pages moving probes will need.
 struct Twist {
   Vec3 linear;   ///< velocity of the body's origin, model units per second
   Vec3 angular;  ///< axis of rotation times its speed, radians per second
@@ -173,6 +175,11 @@ struct SceneContainment : Containment {
   InstanceId instance = kNoInstance;
 };
 
+/// The first contact of a moving ball with any instance: positions and normal in the world frame.
+struct SceneFirstContact : FirstContact {
+  InstanceId instance = kNoInstance;  ///< kNoInstance if no contact was found
+};
+
 /// One thread's access to a scene. It keeps coherence with each model.
 ///
 /// Queries are those of Probe, and make the same promises: with Wait::kNever no allocation, lock,
@@ -217,6 +224,25 @@ class PLANETREE_API SceneProbe {
   ///
   /// query, options  as Probe::contains has them.
   SceneContainment contains(Vec3 query, const QueryOptions& options = {}) noexcept;
+
+  /// Finds the first contact of a moving ball with any instance, as Probe::first_contact does with
+  /// a model. Instances may move meanwhile: each from its pose, by its twist, for as long as the
+  /// motion of the ball takes.
+  ///
+  /// - t_lower is certified, also for instances that turn: before it the ball touches nothing. The
+  ///   error of the poses, and of the way of a ball beside an instance that turns, which is not
+  ///   straight, makes it smaller. That way bends by about an eighth of the angle times the angle
+  ///   times the distance from the instance's origin.
+  /// - t_upper is certified, and infinite where the contact is not certain.
+  /// - `at` is where the contact occurs, at the time t.
+  /// - If an instance turns by more than a radian, nothing is known of it: t_lower is 0.
+  ///
+  /// sweep    of the ball, world frame. With coordinates above 2^500 it gives kBadQuery if an
+  ///          instance has a pose that is not the default one.
+  /// seconds  that the motion takes, >= 0, finite. With 0 the instances stand still.
+  /// options  as Probe::first_contact has them.
+  SceneFirstContact first_contact(const Sweep& sweep, double seconds = 0,
+                                  const QueryOptions& options = {}) noexcept;
 
   /// States where the tool is and how it moves, as Probe::motion does. The fetch threads prefetch
   /// pages of the instance that answered last, along the motion relative to it.

@@ -28,7 +28,7 @@ void InstanceView::cut(cache::ArenaLayout& layout, std::uint32_t max_instances,
   view.ids_ = layout.cut<InstanceId>(max_instances);
   view.models_ = layout.cut<const SceneModel*>(max_instances);
   view.versions_ = layout.cut<std::uint64_t>(max_instances);
-  view.transforms_ = layout.cut<octree::RigidTransform>(max_instances);
+  view.placements_ = layout.cut<Placement>(max_instances);
   for (std::span<double>& corners : view.boxes_) corners = layout.cut<double>(max_instances);
   view.squared_ = layout.cut<double>(max_instances);
 }
@@ -53,21 +53,19 @@ void InstanceView::refresh(std::span<const InstanceSlot> slots, std::uint64_t ch
 
 // A placement that is being written is read after the next change, which its writer counts.
 void InstanceView::load(std::size_t index, const InstanceSlot& slot) noexcept {
-  Placement placement;
-  if (slot.placement.load_newer(versions_[index], placement)) {
-    transforms_[index] = *octree::RigidTransform::of(placement.pose);
+  if (slot.placement.load_newer(versions_[index], placements_[index])) {
     place_box(index);
   } else if (!is_placed(index)) {
     for (std::size_t i = 0; i < kCorners; ++i) boxes_[i][index] = i < 3 ? -kInfinity : kInfinity;
   }
-  if (!is_placed(index) || !transforms_[index].is_identity()) is_still_ = false;
+  is_still_ = is_still_ && is_placed(index) && transform(index).is_identity();
 }
 
 // The box of the turned box of the model. Rounding of the box itself is far below the error of a
 // position, but for the default pose, where there is none.
 void InstanceView::place_box(std::size_t index) noexcept {
   const ModelInfo& info = models_[index]->info;
-  const octree::RigidTransform& transform = transforms_[index];
+  const octree::RigidTransform transform = this->transform(index);
   Vec3 lower = info.box_lower, upper = info.box_upper;
   if (!transform.is_identity()) {
     const Vec3 half{(upper.x - lower.x) / 2, (upper.y - lower.y) / 2, (upper.z - lower.z) / 2};
@@ -90,6 +88,24 @@ std::size_t InstanceView::find(InstanceId id, std::size_t likely) const noexcept
   if (likely < size_ && ids_[likely] == id) return likely;
   const auto ids = ids_.first(size_);
   return static_cast<std::size_t>(std::find(ids.begin(), ids.end(), id) - ids.begin());
+}
+
+double InstanceView::reach(std::size_t index) const noexcept {
+  const ModelInfo& info = models_[index]->info;
+  return length_above(info.box_lower) + length_above(info.box_upper);
+}
+
+bool InstanceView::overlaps(std::size_t index, const Vec3& lower, const Vec3& upper,
+                            double way) const noexcept {
+  const double corners[kCorners] = {lower.x, lower.y, lower.z, upper.x, upper.y, upper.z};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    // Not the negation, so that infinities that cancel overlap.
+    const double before = boxes_[axis][index] - corners[axis + 3];
+    const double behind = corners[axis] - boxes_[axis + 3][index];
+    if (before * (1 - octree::kEndRounding) > way || behind * (1 - octree::kEndRounding) > way)
+      return false;
+  }
+  return true;
 }
 
 void InstanceView::compute_bounds(const Vec3& point) noexcept {

@@ -32,14 +32,19 @@ class InstanceView {
   const SceneModel& model(std::size_t index) const noexcept { return *models_[index]; }
   /// False if the instance was being moved whenever this view looked. Its place is then not known.
   bool is_placed(std::size_t index) const noexcept { return versions_[index] != 0; }
-  const octree::RigidTransform& transform(std::size_t index) const noexcept {
-    return transforms_[index];
+  const Placement& placement(std::size_t index) const noexcept { return placements_[index]; }
+  octree::RigidTransform transform(std::size_t index) const noexcept {
+    return *octree::RigidTransform::of(placements_[index].pose);
   }
+  /// Bound on the distance of the surface from the origin of the instance.
+  double reach(std::size_t index) const noexcept;
   /// Whether all poses are the default one.
   bool is_still() const noexcept { return is_still_; }
   /// Returns the index of an instance, or size() if it is gone.
   std::size_t find(InstanceId id, std::size_t likely) const noexcept;
 
+  /// Returns whether the box of an instance, widened by `way`, and another box have a common point.
+  bool overlaps(std::size_t index, const Vec3& lower, const Vec3& upper, double way) const noexcept;
   /// Computes lower bounds of the distances of all instances from a point, for the calls below.
   void compute_bounds(const Vec3& point) noexcept;
   /// Returns the instance with the least bound that is not marked as visited; size() if all are.
@@ -57,7 +62,7 @@ class InstanceView {
   std::span<InstanceId> ids_;
   std::span<const SceneModel*> models_;
   std::span<std::uint64_t> versions_;  // of the placement, see SeqLock
-  std::span<octree::RigidTransform> transforms_;
+  std::span<Placement> placements_;
   std::span<double> boxes_[kCorners];
   std::span<double> squared_;  // of bounds; infinite: visited
   std::size_t size_ = 0;

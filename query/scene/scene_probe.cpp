@@ -10,7 +10,9 @@
 #include "octree/geometry/fp_environment.h"
 #include "octree/geometry/strict_math.h"
 #include "query/answer/closest_point.h"
+#include "query/answer/model_line.h"
 #include "query/answer/query_context.h"
+#include "query/scene/contact_search.h"
 #include "query/scene/nearest_search.h"
 #include "query/scene/scene_model.h"
 #include "query/shell/vectors.h"
@@ -19,7 +21,7 @@ namespace planetree::query {
 
 SceneProbeState::LocalPoint SceneProbeState::to_local(std::size_t index,
                                                       const Vec3& point) const noexcept {
-  const octree::RigidTransform& transform = view_.transform(index);
+  const octree::RigidTransform transform = view_.transform(index);
   if (transform.is_identity()) return {point, 0};
   const double reach = upper_length(point - transform.translation());
   return {transform.apply_inverse(point), transform.position_error(reach)};
@@ -103,17 +105,24 @@ bool SceneProbeState::is_surface_near(ProbeState& probe, const LocalPoint& local
   return probe.closest_point(local.point, options).lower < local.error;
 }
 
+SceneFirstContact SceneProbeState::first_contact(const Sweep& sweep, double seconds,
+                                                 const QueryOptions& options) noexcept {
+  if (!is_valid(sweep.from, options) || !is_valid(sweep) || !(seconds >= 0) ||
+      !std::isfinite(seconds))
+    return {};
+  const Section section(*this);
+  if (!can_place(sweep.from) || !can_place(sweep.to)) return {};
+  return ContactSearch(*this, sweep, seconds, options).run();
+}
+
 void SceneProbeState::note_motion(const Vec3& position, const Vec3& velocity) noexcept {
   const Section section(*this);
   const std::size_t index = view_.find(last_instance_, last_index_);
   if (index == view_.size() || !view_.is_placed(index) || !can_place(position)) return;
-  const octree::RigidTransform& transform = view_.transform(index);
-  Placement placement;
-  std::uint64_t seen = 0;
-  Vec3 relative = velocity;
-  if (scene_.slot(last_instance_).placement.load_newer(seen, placement))
-    relative = velocity - placement.twist.linear -
-               cross(placement.twist.angular, position - transform.translation());
+  const octree::RigidTransform transform = view_.transform(index);
+  const Twist& twist = view_.placement(index).twist;
+  const Vec3 relative =
+      velocity - twist.linear - cross(twist.angular, position - transform.translation());
   probe(index).note_motion(to_local(index, position).point, transform.rotate_inverse(relative));
 }
 
@@ -146,6 +155,12 @@ SceneClosestPoint SceneProbe::closest_point(Vec3 query, const QueryOptions& opti
 SceneContainment SceneProbe::contains(Vec3 query, const QueryOptions& options) noexcept {
   const octree::FpEnvironmentGuard host;
   return state_->contains(query, options);
+}
+
+SceneFirstContact SceneProbe::first_contact(const Sweep& sweep, double seconds,
+                                            const QueryOptions& options) noexcept {
+  const octree::FpEnvironmentGuard host;
+  return state_->first_contact(sweep, seconds, options);
 }
 
 void SceneProbe::motion(Vec3 position, Vec3 velocity) noexcept {

@@ -25,11 +25,14 @@ class SceneProbeState {
   /// See the functions of SceneProbe.
   SceneClosestPoint closest_point(const Vec3& query, const QueryOptions& options) noexcept;
   SceneContainment contains(const Vec3& query, const QueryOptions& options) noexcept;
+  SceneFirstContact first_contact(const Sweep& sweep, double seconds,
+                                  const QueryOptions& options) noexcept;
   void note_motion(const Vec3& position, const Vec3& velocity) noexcept;
 
  private:
   class Section;
   class NearestSearch;
+  class ContactSearch;
 
   /// A point in the frame of an instance.
   struct LocalPoint {

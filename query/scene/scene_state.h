@@ -56,9 +56,6 @@ class SceneState {
   std::span<const InstanceSlot> slots() const noexcept {
     return memory_.slots.first(used_slots_.load(std::memory_order_acquire));
   }
-  const InstanceSlot& slot(InstanceId instance) const noexcept {
-    return memory_.slots[slot_of(instance)];
-  }
 
  private:
   // Memory that queries read and write, besides that of the models.

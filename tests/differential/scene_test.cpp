@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -126,6 +127,17 @@ class SceneCase {
       EXPECT_TRUE(scene_.set_pose(each.id, each.pose));
     }
   }
+  // Gives each instance a twist, and returns them.
+  std::vector<Twist> twist_all(Random& random) {
+    std::vector<Twist> twists;
+    for (const Placed& each : placed_) {
+      Twist twist{random.in_cube() * 2, random.in_cube() * 0.5};
+      if (random.one_in(3)) twist = {};
+      EXPECT_TRUE(scene_.set_pose(each.id, each.pose, twist));
+      twists.push_back(twist);
+    }
+    return twists;
+  }
   // A point that is critical for one of the instances.
   Vec3 query(Random& random) const {
     const Placed& each = placed_[random.below(placed_.size())];
@@ -152,6 +164,100 @@ class SceneCase {
   SceneProbe probe_;
   std::vector<Placed> placed_;
 };
+
+// Where a moving instance is at a time of its motion, with sines of 113 bits.
+struct RealPose {
+  RealPoint u;  // of the unit quaternion w + u
+  Real w;
+  RealPoint t;
+};
+
+RealPose real_pose(const Pose& pose, const Twist& twist, double seconds, const Real& time) {
+  const RealPoint turn{twist.angular.x * (seconds * time), twist.angular.y * (seconds * time),
+                       twist.angular.z * (seconds * time)};
+  const Real angle = sqrt(turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2]);
+  const Real half = angle / 2, share = angle == 0 ? Real(0.5) : Real(sin(half) / angle);
+  const Real aw = cos(half), ax = turn[0] * share, ay = turn[1] * share, az = turn[2] * share;
+  const auto& [bw, bx, by, bz] = pose.rotation;
+  const Real length = sqrt(Real(bw) * bw + Real(bx) * bx + Real(by) * by + Real(bz) * bz);
+  const auto at = [&](double from, double speed) -> Real { return from + speed * seconds * time; };
+  return {{(aw * bx + ax * bw + ay * bz - az * by) / length,
+           (aw * by - ax * bz + ay * bw + az * bx) / length,
+           (aw * bz + ax * by - ay * bx + az * bw) / length},
+          (aw * bw - ax * bx - ay * by - az * bz) / length,
+          {at(pose.translation.x, twist.linear.x), at(pose.translation.y, twist.linear.y),
+           at(pose.translation.z, twist.linear.z)}};
+}
+
+// The centre of a moving ball in the frame of an instance, and its distance with its slack.
+struct Centre {
+  RealPoint at;
+  Real distance, slack;
+};
+Centre centre_at(const Placed& placed, const Twist& twist, double seconds, const Sweep& sweep,
+                 const Real& time) {
+  const RealPose pose = real_pose(placed.pose, twist, seconds, time);
+  const RealPoint from = real(sweep.from), to = real(sweep.to);
+  RealPoint d;
+  for (std::size_t i = 0; i < 3; ++i) d[i] = from[i] + (to[i] - from[i]) * time - pose.t[i];
+  const auto cross = [](const RealPoint& a, const RealPoint& b) -> RealPoint {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  };
+  const RealPoint u{-pose.u[0], -pose.u[1], -pose.u[2]};
+  const RealPoint once = cross(u, d), twice = cross(u, once);
+  RealPoint exact;
+  for (std::size_t i = 0; i < 3; ++i) exact[i] = d[i] + 2 * pose.w * once[i] + 2 * twice[i];
+  const Vec3 point{double(exact[0]), double(exact[1]), double(exact[2])};
+  Real slack = 0;
+  for (std::size_t i = 0; i < 3; ++i) slack += abs(exact[i] - real(point)[i]);
+  return {exact, Real(exact_distance(point, placed.model->triangles())), slack};
+}
+
+void check_sweeps(std::span<const NastyFamily> families, std::size_t seed) {
+  Random random(seed);
+  std::size_t touched = 0, certain = 0, free = 0;
+  for (int i = 0; i < 8 * test_effort(); ++i) {
+    SceneCase scene(random, families);
+    for (int k = 0; k < 25 && !testing::Test::HasFailure(); ++k) {
+      SCOPED_TRACE(testing::Message() << "scene " << i << " sweep " << k);
+      scene.move_some(random);
+      const double seconds = random.one_in(3) ? 0 : random.magnitude(-10, 0);
+      const std::vector<Twist> twists = scene.twist_all(random);
+      const Sweep sweep{scene.query(random), scene.query(random),
+                        random.one_in(4) ? 0 : random.magnitude(-20, 0)};
+      if (!scene.is_moderate(sweep.from) || !scene.is_moderate(sweep.to)) continue;
+      const SceneFirstContact contact = scene.probe().first_contact(sweep, seconds);
+      EXPECT_EQ(contact.free, contact.t_lower > 1 && contact.status == Status::kExact);
+      Real nearest = std::numeric_limits<double>::infinity();
+      for (std::size_t n = 0; n < scene.placed().size(); ++n) {
+        for (int step = 0; step <= 6; ++step) {
+          if (contact.t_lower == 0) break;
+          const Real time = std::min(1.0, 0.999999 * contact.t_lower) * Real(step) / 6;
+          const Centre centre = centre_at(scene.placed()[n], twists[n], seconds, sweep, time);
+          EXPECT_GE(centre.distance + centre.slack, Real(sweep.radius)) << step << " of " << n;
+        }
+        if (!(contact.t_upper <= 1)) continue;
+        const Centre first =
+            centre_at(scene.placed()[n], twists[n], seconds, sweep, contact.t_lower);
+        const Centre last =
+            centre_at(scene.placed()[n], twists[n], seconds, sweep, contact.t_upper);
+        // A point may have passed through the surface in between.
+        Real way = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis) way += abs(last.at[axis] - first.at[axis]);
+        nearest = std::min<Real>(nearest, last.distance - last.slack - way);
+      }
+      if (contact.t_upper <= 1) {
+        EXPECT_LE(nearest, Real(sweep.radius)) << "no instance is touched in the end";
+      }
+      touched += contact.t <= 1;
+      certain += contact.t_upper <= 1;
+      free += contact.free;
+    }
+  }
+  EXPECT_GT(touched, 20u);
+  EXPECT_GT(certain, touched / 3);
+  EXPECT_GT(free, 5u);
+}
 
 void check_queries(std::span<const NastyFamily> families, bool has_sides, std::size_t seed) {
   Random random(seed);
@@ -201,6 +307,8 @@ void check_queries(std::span<const NastyFamily> families, bool has_sides, std::s
 }
 
 TEST(ScenesOfClosedModels, AnswerAsAllTrianglesDo) { check_queries(closed_families(), true, 1); }
+TEST(ScenesOfClosedModels, AreTouchedAsAllTrianglesAre) { check_sweeps(closed_families(), 3); }
+TEST(ScenesOfNastyModels, AreTouchedAsAllTrianglesAre) { check_sweeps(nasty_families(), 4); }
 TEST(ScenesOfNastyModels, AnswerAsAllTrianglesDo) { check_queries(nasty_families(), false, 2); }
 
 }  // namespace
