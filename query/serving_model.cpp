@@ -1,5 +1,6 @@
 #include "query/serving_model.h"
 
+#include <algorithm>
 #include <memory>
 #include <new>
 
@@ -31,13 +32,14 @@ void fill_grids(ServingModel& serving, cache::Reader& reader) {
 }  // namespace
 
 QueryArena::Needs arena_needs(const storage::FileHeader& header, const OpenLayers& opened,
-                              unsigned readers) noexcept {
+                              unsigned readers, std::uint64_t max_grid_bytes) noexcept {
   QueryArena::Needs needs;
   needs.readers = readers;
   needs.model_bytes = sizeof(ServingModel);
   needs.probe_bytes = sizeof(ProbeState);
   if (opened.has_side() && header.model.mask_page_count > 0)
-    needs.side_grid_bytes = octree::SideGrid::bytes(header.model.triangle_count);
+    needs.side_grid_bytes = std::min<std::uint64_t>(
+        octree::SideGrid::bytes(header.model.triangle_count), max_grid_bytes);
   if (opened.has_side() && header.model.cap_count > 0)
     needs.side_grid_bytes += octree::CapGrid::kBytes;
   if (opened.has_field()) needs.field_bytes = field_shape(header.model).bytes();

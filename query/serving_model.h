@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 
@@ -63,8 +64,11 @@ struct DestroyServingModel {
 using ServingModelPtr = std::unique_ptr<ServingModel, DestroyServingModel>;
 
 /// Returns what the arena of a model needs for so many readers, without contacts and traces.
-QueryArena::Needs arena_needs(const storage::FileHeader& header, const OpenLayers& opened,
-                              unsigned readers) noexcept;
+///
+/// max_grid_bytes  of the side grid: it takes the finest level that fits
+QueryArena::Needs arena_needs(
+    const storage::FileHeader& header, const OpenLayers& opened, unsigned readers,
+    std::uint64_t max_grid_bytes = std::numeric_limits<std::uint64_t>::max()) noexcept;
 
 /// Makes a model in its arena. load_model() must fill it before queries use it.
 ///

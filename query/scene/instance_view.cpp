@@ -120,16 +120,22 @@ void InstanceView::compute_bounds(const Vec3& point) noexcept {
                 .min(std::numeric_limits<double>::max());
 }
 
-std::size_t InstanceView::nearest() const noexcept {
-  const auto all = squared_.first(size_);
-  const auto least = std::min_element(all.begin(), all.end());
-  return least == all.end() || *least == kInfinity ? size_
-                                                   : static_cast<std::size_t>(least - all.begin());
+double InstanceView::least_square() const noexcept {
+  if (size_ == 0) return kInfinity;
+  return ConstNumbers(squared_.data(), static_cast<Eigen::Index>(size_)).minCoeff();
 }
 
-double InstanceView::bound(std::size_t index) const noexcept {
+double InstanceView::least_bound() const noexcept { return bound_of(least_square()); }
+
+std::size_t InstanceView::nearest() const noexcept {
+  const double least = least_square();
+  if (least == kInfinity) return size_;
+  const auto all = squared_.first(size_);
+  return static_cast<std::size_t>(std::find(all.begin(), all.end(), least) - all.begin());
+}
+
+double InstanceView::bound_of(double squared) noexcept {
   // The square errs by less than 2^-50 of itself, and by 2^-1074 if it underflows.
-  const double squared = squared_[index];
   return squared < 0x1p-1000 ? 0 : std::sqrt(squared) * (1 - 0x1p-49);
 }
 

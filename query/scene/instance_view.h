@@ -47,13 +47,17 @@ class InstanceView {
   bool overlaps(std::size_t index, const Vec3& lower, const Vec3& upper, double way) const noexcept;
   /// Computes lower bounds of the distances of all instances from a point, for the calls below.
   void compute_bounds(const Vec3& point) noexcept;
-  /// Returns the instance with the least bound that is not marked as visited; size() if all are.
+  /// Returns the least bound of the instances that are not marked as visited; infinite if all are.
+  double least_bound() const noexcept;
+  /// Returns the first instance that has it; size() if all are visited.
   std::size_t nearest() const noexcept;
   /// Lower bound of the distance of an instance that is not visited; 0 if the point is in its box.
-  double bound(std::size_t index) const noexcept;
+  double bound(std::size_t index) const noexcept { return bound_of(squared_[index]); }
   void mark_visited(std::size_t index) noexcept;
 
  private:
+  static double bound_of(double squared) noexcept;
+  double least_square() const noexcept;
   void load(std::size_t index, const InstanceSlot& slot) noexcept;
   void place_box(std::size_t index) noexcept;
 

@@ -50,24 +50,22 @@ SceneClosestPoint SceneProbeState::NearestSearch::run() noexcept {
   view_.compute_bounds(query_);
   // All parts of the first one, which is the nearest one more often than not.
   visit(first(), options_.parts);
-  for (std::size_t next = view_.nearest(); next < view_.size(); next = view_.nearest()) {
-    const double bound = view_.bound(next);
+  for (double bound = view_.least_bound(); bound < kInfinity; bound = view_.least_bound()) {
     if (bound > std::min(upper_, options_.max_distance)) break;
     if (may_stop(bound)) {
       lower_ = std::min(lower_, bound);
       unproven_ = std::min(unproven_, bound);
       break;
     }
-    visit(next, kDistance);
+    visit(view_.nearest(), kDistance);
   }
   return finish();
 }
 
 // The instance that answered last, if its box is near enough to be worth it.
 std::size_t SceneProbeState::NearestSearch::first() const noexcept {
-  const std::size_t nearest = view_.nearest();
   const std::size_t last = view_.find(scene_.last_instance_, scene_.last_index_);
-  return last < view_.size() && view_.bound(last) <= view_.bound(nearest) ? last : nearest;
+  return last < view_.size() && view_.bound(last) <= view_.least_bound() ? last : view_.nearest();
 }
 
 bool SceneProbeState::NearestSearch::may_stop(double bound) const noexcept {

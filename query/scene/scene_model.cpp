@@ -10,6 +10,9 @@
 namespace planetree::query {
 namespace {
 
+// Maximum size of a side grid. The grid of a large model alone has six times as much.
+constexpr std::uint64_t kMaxGridBytes = std::uint64_t{1} << 18;
+
 std::uint64_t thread_bytes(const SceneModel::Choices& choices) {
   const std::uint64_t for_each =
       sizeof(FetchWorker) + sizeof(QueryingFetchProbe) + choices.readers * FetchWorker::kProbeBytes;
@@ -46,7 +49,8 @@ Result<std::unique_ptr<SceneModel>> SceneModel::open(const std::filesystem::path
 }
 
 ModelMemory SceneModel::memory(const Choices& choices) const noexcept {
-  const QueryArena::Needs needs = arena_needs(file.header(), opened, choices.readers);
+  const QueryArena::Needs needs =
+      arena_needs(file.header(), opened, choices.readers, kMaxGridBytes);
   ModelMemory memory;
   memory.page_table = file.table_memory_bytes();
   memory.side_grid = needs.side_grid_bytes;
@@ -66,7 +70,8 @@ Result<void> SceneModel::join(ScenePager& pager, cache::Reader& loader, const Ch
   if (!first) return first.error();
   first_page = *first;
   cache::PageCache& cache = pager.cache();
-  auto claimed = QueryArena::claim(arena_needs(file.header(), opened, choices.readers));
+  auto claimed =
+      QueryArena::claim(arena_needs(file.header(), opened, choices.readers, kMaxGridBytes));
   if (!claimed) return claimed.error();
   arena.emplace(*std::move(claimed));
   if (choices.locking != Locking::kNever && !arena->lock() && choices.locking == Locking::kRequire)
