@@ -4,8 +4,6 @@
 #include <memory>
 #include <new>
 
-#include "octree/mask/cap_grid.h"
-#include "octree/mask/side_grid.h"
 #include "query/file/field_loading.h"
 #include "query/file/page_decoding.h"
 #include "query/probe_state.h"

@@ -1,6 +1,5 @@
 #include "query/scene/instance_view.h"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,9 +12,6 @@ namespace planetree::query {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-using Numbers = Eigen::Map<Eigen::ArrayXd>;
-using ConstNumbers = Eigen::Map<const Eigen::ArrayXd>;
 
 double length_above(const Vec3& v) {
   return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}) * 2;
@@ -109,20 +105,11 @@ bool InstanceView::overlaps(std::size_t index, const Vec3& lower, const Vec3& up
 }
 
 void InstanceView::compute_bounds(const Vec3& point) noexcept {
-  const auto count = static_cast<Eigen::Index>(size_);
-  const auto numbers = [count](std::span<double> all) { return ConstNumbers(all.data(), count); };
-  const auto gap = [&](std::size_t axis, double at) {
-    return (numbers(boxes_[axis]) - at).max(at - numbers(boxes_[axis + 3])).max(0.0);
-  };
-  Numbers squared(squared_.data(), count);
-  // What overflows is not infinite, which would mean visited.
-  squared = (gap(0, point.x).square() + gap(1, point.y).square() + gap(2, point.z).square())
-                .min(std::numeric_limits<double>::max());
+  octree::squared_box_distances(boxes_, point, squared_.first(size_));
 }
 
 double InstanceView::least_square() const noexcept {
-  if (size_ == 0) return kInfinity;
-  return ConstNumbers(squared_.data(), static_cast<Eigen::Index>(size_)).minCoeff();
+  return octree::least_value(squared_.first(size_));
 }
 
 double InstanceView::least_bound() const noexcept { return bound_of(least_square()); }
@@ -135,7 +122,7 @@ std::size_t InstanceView::nearest() const noexcept {
 }
 
 double InstanceView::bound_of(double squared) noexcept {
-  // The square errs by less than 2^-50 of itself, and by 2^-1074 if it underflows.
+  // See squared_box_distances() for the error of the square.
   return squared < 0x1p-1000 ? 0 : std::sqrt(squared) * (1 - 0x1p-49);
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "cache/prefaulted_memory.h"
+#include "octree/geometry/box_distances.h"
 #include "octree/geometry/rigid_transform.h"
 #include "planetree/scene.h"
 #include "planetree/types.h"
@@ -67,7 +68,7 @@ class InstanceView {
   std::span<const SceneModel*> models_;
   std::span<std::uint64_t> versions_;  // of the placement, see SeqLock
   std::span<Placement> placements_;
-  std::span<double> boxes_[kCorners];
+  octree::BoxColumns boxes_;
   std::span<double> squared_;  // of bounds; infinite: visited
   std::size_t size_ = 0;
   std::uint64_t changes_ = 0;

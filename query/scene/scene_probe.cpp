@@ -2,12 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <new>
-#include <utility>
 
 #include "octree/geometry/error_bounds.h"
-#include "octree/geometry/fp_environment.h"
 #include "octree/geometry/strict_math.h"
 #include "query/answer/closest_point.h"
 #include "query/answer/model_line.h"
@@ -127,45 +123,3 @@ void SceneProbeState::note_motion(const Vec3& position, const Vec3& velocity) no
 }
 
 }  // namespace planetree::query
-
-namespace planetree {
-
-Result<SceneProbe> SceneProbe::create(const Scene& scene) {
-  auto reader = scene.state_->claim_probe();
-  if (!reader) return reader.error();
-  std::unique_ptr<query::SceneProbeState> state(
-      new (std::nothrow) query::SceneProbeState(*scene.state_, *std::move(reader)));
-  if (!state)
-    return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
-                      "no memory for a probe; free some and try again");
-  return SceneProbe(std::move(state));
-}
-
-SceneProbe::SceneProbe(std::unique_ptr<query::SceneProbeState> state) noexcept
-    : state_(std::move(state)) {}
-SceneProbe::SceneProbe(SceneProbe&&) noexcept = default;
-SceneProbe& SceneProbe::operator=(SceneProbe&&) noexcept = default;
-SceneProbe::~SceneProbe() = default;
-
-SceneClosestPoint SceneProbe::closest_point(Vec3 query, const QueryOptions& options) noexcept {
-  const octree::FpEnvironmentGuard host;
-  return state_->closest_point(query, options);
-}
-
-SceneContainment SceneProbe::contains(Vec3 query, const QueryOptions& options) noexcept {
-  const octree::FpEnvironmentGuard host;
-  return state_->contains(query, options);
-}
-
-SceneFirstContact SceneProbe::first_contact(const Sweep& sweep, double seconds,
-                                            const QueryOptions& options) noexcept {
-  const octree::FpEnvironmentGuard host;
-  return state_->first_contact(sweep, seconds, options);
-}
-
-void SceneProbe::motion(Vec3 position, Vec3 velocity) noexcept {
-  const octree::FpEnvironmentGuard host;
-  state_->note_motion(position, velocity);
-}
-
-}  // namespace planetree

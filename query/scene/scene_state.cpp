@@ -8,7 +8,6 @@
 #include <thread>
 #include <utility>
 
-#include "octree/geometry/fp_environment.h"
 #include "octree/geometry/rigid_transform.h"
 #include "octree/geometry/startup_check.h"
 
@@ -329,42 +328,3 @@ SceneStats SceneState::stats() const noexcept {
 }
 
 }  // namespace planetree::query
-
-namespace planetree {
-
-Result<Scene> Scene::create(const SceneOptions& options) {
-  const octree::FpEnvironmentGuard host;
-  auto state = query::SceneState::create(options);
-  if (!state) return state.error();
-  return Scene(*std::move(state));
-}
-
-Scene::Scene(std::unique_ptr<query::SceneState> state) noexcept : state_(std::move(state)) {}
-Scene::Scene(Scene&&) noexcept = default;
-Scene& Scene::operator=(Scene&&) noexcept = default;
-Scene::~Scene() = default;
-
-Result<InstanceId> Scene::add(const std::filesystem::path& path, const Pose& pose,
-                              std::uint32_t layers) {
-  const octree::FpEnvironmentGuard host;
-  return state_->add(path, pose, layers);
-}
-
-Result<void> Scene::remove(InstanceId instance) { return state_->remove(instance); }
-
-Result<void> Scene::set_pose(InstanceId instance, const Pose& pose, const Twist& twist) noexcept {
-  const octree::FpEnvironmentGuard host;
-  return state_->set_pose(instance, pose, twist);
-}
-
-Result<const ModelInfo*> Scene::info(InstanceId instance) const noexcept {
-  return state_->info(instance);
-}
-
-Result<ModelMemory> Scene::memory(InstanceId instance) const noexcept {
-  return state_->memory(instance);
-}
-
-SceneStats Scene::stats() const noexcept { return state_->stats(); }
-
-}  // namespace planetree
