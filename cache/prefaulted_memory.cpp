@@ -93,8 +93,9 @@ Result<PrefaultedMemory> PrefaultedMemory::claim(std::uint64_t bytes) noexcept {
 Result<PrefaultedMemory> PrefaultedMemory::reserve(std::uint64_t bytes) noexcept {
   assert(bytes != 0);
   const std::uint64_t rounded = claimed_bytes(bytes);
-  void* const address = ::mmap(nullptr, rounded, PROT_READ | PROT_WRITE,
-                               MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  // Without access, so that it counts as memory nowhere, not even where the system overcommits
+  // none.
+  void* const address = ::mmap(nullptr, rounded, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (address == MAP_FAILED) return refused(rounded);
   // A huge page would back more than commit() asks for.
   ::madvise(address, rounded, MADV_NOHUGEPAGE);
@@ -107,7 +108,9 @@ Result<void> PrefaultedMemory::commit(std::uint64_t offset, std::uint64_t bytes,
   const std::uint64_t last = system_page_bytes() - 1;
   const std::uint64_t begin = offset & ~last;
   const std::uint64_t end = (offset + bytes + last) & ~last;
-  if (!populate(data_ + begin, end - begin)) return refused(end - begin);
+  if (::mprotect(data_ + begin, end - begin, PROT_READ | PROT_WRITE) != 0 ||
+      !populate(data_ + begin, end - begin))
+    return refused(end - begin);
   if (is_locked) ::mlock(data_ + begin, end - begin);
   return {};
 }

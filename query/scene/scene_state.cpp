@@ -14,8 +14,8 @@
 namespace planetree::query {
 namespace {
 
-// Page numbers of a scene: 4 TiB of the smallest decoded pages.
-constexpr std::uint32_t kMaxPages = std::uint32_t{1} << 30;
+// Page numbers of a scene: 4 TiB of decoded pages of the default size.
+constexpr std::uint32_t kMaxPages = std::uint32_t{1} << 26;
 
 Error bad_argument(const char* text) {
   return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere, "%s", text);

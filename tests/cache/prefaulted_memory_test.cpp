@@ -37,5 +37,26 @@ TEST(PrefaultedMemory, ClaimedMemoryIsZeroAndOfTheStatedSize) {
   }
 }
 
+TEST(PrefaultedMemory, ReservedMemoryIsThereOnceItIsCommitted) {
+  const auto memory = PrefaultedMemory::reserve(std::uint64_t{1} << 30);
+  ASSERT_TRUE(memory);
+  ASSERT_TRUE(memory->commit(5000, 4000, false));
+  std::byte* const data = memory->data();
+  EXPECT_TRUE(
+      std::all_of(data + 4096, data + 12288, [](std::byte byte) { return byte == std::byte{0}; }));
+  data[5000] = data[12287] = std::byte{7};
+  // Parts that are committed again keep their content.
+  ASSERT_TRUE(memory->commit(8192, 10000, false));
+  EXPECT_EQ(data[5000], std::byte{7});
+  EXPECT_EQ(data[12287], std::byte{7});
+  EXPECT_EQ(data[18191], std::byte{0});
+  // Only whole system pages of the part are given back.
+  memory->discard(5000, 10000);
+  EXPECT_EQ(data[5000], std::byte{7});
+  ASSERT_TRUE(memory->commit(5000, 10000, false));
+  EXPECT_EQ(data[5000], std::byte{7});
+  EXPECT_EQ(data[12287], std::byte{0}) << "the content of discarded pages is lost";
+}
+
 }  // namespace
 }  // namespace planetree::cache
