@@ -24,18 +24,38 @@ using RealPoint = std::array<Real, 3>;
 
 RealPoint real(const Vec3& v) { return {Real(v.x), Real(v.y), Real(v.z)}; }
 
-// v turned by q / |q|, or turned back: v + 2 w (u x v) + 2 u x (u x v) for a unit quaternion w + u.
-RealPoint turned(const RealPoint& v, const Quaternion& q, int direction) {
+RealPoint cross(const RealPoint& a, const RealPoint& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+// A rotation, by the unit quaternion w + u.
+struct Rotation {
+  RealPoint u;
+  Real w;
+
+  Rotation inverse() const { return {{-u[0], -u[1], -u[2]}, w}; }
+  // v + 2 w (u x v) + 2 u x (u x v)
+  RealPoint of(const RealPoint& v) const {
+    const RealPoint once = cross(u, v), twice = cross(u, once);
+    RealPoint sum;
+    for (std::size_t i = 0; i < 3; ++i) sum[i] = v[i] + 2 * w * once[i] + 2 * twice[i];
+    return sum;
+  }
+};
+
+Rotation rotation(const Quaternion& q) {
   const Real x = q.x, y = q.y, z = q.z, w = q.w;
   const Real length = sqrt(x * x + y * y + z * z + w * w);
-  const RealPoint u{direction * x / length, direction * y / length, direction * z / length};
-  const auto cross = [](const RealPoint& a, const RealPoint& b) -> RealPoint {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  };
-  const RealPoint once = cross(u, v), twice = cross(u, once);
-  RealPoint sum;
-  for (std::size_t i = 0; i < 3; ++i) sum[i] = v[i] + 2 * (w / length) * once[i] + 2 * twice[i];
-  return sum;
+  return {{x / length, y / length, z / length}, w / length};
+}
+
+// The rotation b, and a after it.
+Rotation joined(const Rotation& a, const Rotation& b) {
+  const RealPoint both = cross(a.u, b.u);
+  Rotation product;
+  for (std::size_t i = 0; i < 3; ++i) product.u[i] = a.w * b.u[i] + b.w * a.u[i] + both[i];
+  product.w = a.w * b.w - a.u[0] * b.u[0] - a.u[1] * b.u[1] - a.u[2] * b.u[2];
+  return product;
 }
 
 // A point in the frame of an instance: the nearest doubles, and how far they are off.
@@ -44,21 +64,23 @@ struct Local {
   Real slack;
 };
 
-Local to_local(const Pose& pose, const Vec3& world) {
-  const RealPoint from = real(world), t = real(pose.translation);
-  const RealPoint exact =
-      turned({from[0] - t[0], from[1] - t[1], from[2] - t[2]}, pose.rotation, -1);
+Local rounded(const RealPoint& exact) {
   const Vec3 point{double(exact[0]), double(exact[1]), double(exact[2])};
   Real slack = 0;
   for (std::size_t i = 0; i < 3; ++i) slack += abs(exact[i] - real(point)[i]);
   return {point, slack};
 }
 
+Local to_local(const Pose& pose, const Vec3& world) {
+  const RealPoint from = real(world), t = real(pose.translation);
+  return rounded(
+      rotation(pose.rotation).inverse().of({from[0] - t[0], from[1] - t[1], from[2] - t[2]}));
+}
+
 Vec3 to_world(const Pose& pose, const Vec3& local) {
-  const RealPoint turned_point = turned(real(local), pose.rotation, 1);
-  return {double(turned_point[0] + pose.translation.x),
-          double(turned_point[1] + pose.translation.y),
-          double(turned_point[2] + pose.translation.z)};
+  const RealPoint at = rotation(pose.rotation).of(real(local));
+  return {double(at[0] + pose.translation.x), double(at[1] + pose.translation.y),
+          double(at[2] + pose.translation.z)};
 }
 
 struct Placed {
@@ -167,9 +189,8 @@ class SceneCase {
 
 // Where a moving instance is at a time of its motion, with sines of 113 bits.
 struct RealPose {
-  RealPoint u;  // of the unit quaternion w + u
-  Real w;
-  RealPoint t;
+  Rotation rotation;
+  RealPoint translation;
 };
 
 RealPose real_pose(const Pose& pose, const Twist& twist, double seconds, const Real& time) {
@@ -177,14 +198,9 @@ RealPose real_pose(const Pose& pose, const Twist& twist, double seconds, const R
                        twist.angular.z * (seconds * time)};
   const Real angle = sqrt(turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2]);
   const Real half = angle / 2, share = angle == 0 ? Real(0.5) : Real(sin(half) / angle);
-  const Real aw = cos(half), ax = turn[0] * share, ay = turn[1] * share, az = turn[2] * share;
-  const auto& [bw, bx, by, bz] = pose.rotation;
-  const Real length = sqrt(Real(bw) * bw + Real(bx) * bx + Real(by) * by + Real(bz) * bz);
+  const Rotation since{{turn[0] * share, turn[1] * share, turn[2] * share}, cos(half)};
   const auto at = [&](double from, double speed) -> Real { return from + speed * seconds * time; };
-  return {{(aw * bx + ax * bw + ay * bz - az * by) / length,
-           (aw * by - ax * bz + ay * bw + az * bx) / length,
-           (aw * bz + ax * by - ay * bx + az * bw) / length},
-          (aw * bw - ax * bx - ay * by - az * bz) / length,
+  return {joined(since, rotation(pose.rotation)),
           {at(pose.translation.x, twist.linear.x), at(pose.translation.y, twist.linear.y),
            at(pose.translation.z, twist.linear.z)}};
 }
@@ -199,18 +215,11 @@ Centre centre_at(const Placed& placed, const Twist& twist, double seconds, const
   const RealPose pose = real_pose(placed.pose, twist, seconds, time);
   const RealPoint from = real(sweep.from), to = real(sweep.to);
   RealPoint d;
-  for (std::size_t i = 0; i < 3; ++i) d[i] = from[i] + (to[i] - from[i]) * time - pose.t[i];
-  const auto cross = [](const RealPoint& a, const RealPoint& b) -> RealPoint {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  };
-  const RealPoint u{-pose.u[0], -pose.u[1], -pose.u[2]};
-  const RealPoint once = cross(u, d), twice = cross(u, once);
-  RealPoint exact;
-  for (std::size_t i = 0; i < 3; ++i) exact[i] = d[i] + 2 * pose.w * once[i] + 2 * twice[i];
-  const Vec3 point{double(exact[0]), double(exact[1]), double(exact[2])};
-  Real slack = 0;
-  for (std::size_t i = 0; i < 3; ++i) slack += abs(exact[i] - real(point)[i]);
-  return {exact, Real(exact_distance(point, placed.model->triangles())), slack};
+  for (std::size_t i = 0; i < 3; ++i)
+    d[i] = from[i] + (to[i] - from[i]) * time - pose.translation[i];
+  const RealPoint exact = pose.rotation.inverse().of(d);
+  const Local local = rounded(exact);
+  return {exact, Real(exact_distance(local.point, placed.model->triangles())), local.slack};
 }
 
 void check_sweeps(std::span<const NastyFamily> families, std::size_t seed) {

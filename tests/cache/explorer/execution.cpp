@@ -134,19 +134,23 @@ std::uint64_t Execution::load(std::size_t atomic, std::memory_order order) {
   return loaded.value;
 }
 
+void Execution::note_change(const char* what, std::size_t atomic, std::uint64_t value,
+                            std::memory_order order) {
+  threads_[running_].did_visible_step = true;
+  trace_.add({running_, what, atomic, value, name_of(order), 0});
+}
+
 void Execution::store(std::size_t atomic, std::uint64_t value, std::memory_order order) {
   before_step();
   memory_.store(running_, atomic, value, order);
-  threads_[running_].did_visible_step = true;
-  trace_.add({running_, "stores atomic", atomic, value, name_of(order), 0});
+  note_change("stores atomic", atomic, value, order);
 }
 
 std::uint64_t Execution::exchange(std::size_t atomic, std::uint64_t value,
                                   std::memory_order order) {
   before_step();
   const std::uint64_t replaced = memory_.exchange(running_, atomic, value, order);
-  threads_[running_].did_visible_step = true;
-  trace_.add({running_, "exchanges atomic", atomic, value, name_of(order), 0});
+  note_change("exchanges atomic", atomic, value, order);
   return replaced;
 }
 
@@ -154,8 +158,7 @@ std::uint64_t Execution::fetch_add(std::size_t atomic, std::uint64_t value,
                                    std::memory_order order) {
   before_step();
   const std::uint64_t replaced = memory_.fetch_add(running_, atomic, value, order);
-  threads_[running_].did_visible_step = true;
-  trace_.add({running_, "adds to atomic", atomic, value, name_of(order), 0});
+  note_change("adds to atomic", atomic, value, order);
   return replaced;
 }
 

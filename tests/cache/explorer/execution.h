@@ -70,6 +70,9 @@ class Execution {
   void note(const char* what, std::uint64_t number);
 
  private:
+  void note_change(const char* what, std::size_t atomic, std::uint64_t value,
+                   std::memory_order order);
+
   static constexpr std::uint32_t kNoPage = kMaxThreads;
 
   static void fiber_body();
