@@ -12,6 +12,7 @@
 #include "query/file/model_info.h"
 #include "query/model_state.h"
 #include "query/probe_state.h"
+#include "query/serve/cache_counts.h"
 #include "query/serve/page_accessor.h"
 #include "query/serve/trace_decoder.h"
 
@@ -202,14 +203,8 @@ std::size_t ModelState::drain_page_trace(std::span<PageAccess> accesses) const n
 }
 
 Stats ModelState::stats() const noexcept {
-  const cache::CacheStats cache = pager_->cache().stats();
   Stats stats;
-  stats.page_hits = cache.hits;
-  stats.page_misses = cache.misses;
-  stats.pages_read = cache.fills;
-  stats.pages_evicted = cache.evictions;
-  stats.quarantined_pages = cache.quarantined;
-  stats.waits_given_up = cache.given_up;
+  report_cache(pager_->cache().stats(), stats);
   stats.degraded_answers = serving_->degraded.load(std::memory_order_relaxed);
   stats.degraded_without_misses = serving_->degraded_without_misses.load(std::memory_order_relaxed);
   if (const PageTraces* const traces = serving_->arena.traces)
@@ -222,10 +217,6 @@ Stats ModelState::stats() const noexcept {
     stats.pages_read_ahead = fetch_threads_->pages_read_ahead();
   }
   stats.layers = pager_->opened().layers;
-  stats.frames = cache.frame_count;
-  stats.arena_bytes = cache.arena_bytes;
-  stats.table_bytes = cache.table_bytes + cache.reserved_bytes;
-  stats.budget_bytes = cache.budget_bytes;
   stats.locked_bytes = pager_->locked_bytes();
   stats.field_damaged = field_damaged_;
   stats.header_copy_damaged = pager_->file().header_copy_damaged();

@@ -169,9 +169,7 @@ Found ProbeState::find_set(const Vec3& centre, double radius, std::span<ClosestP
     }
   }
   if ((options.parts & kSide) == 0 || set.found.count == 0) return set.found;
-  if (limited.max_work != QueryOptions::kNoLimit)
-    limited.max_work -=
-        static_cast<std::uint32_t>(std::min<std::uint64_t>(units, limited.max_work));
+  spend(limited, units);
   const Side side = contains(centre, limited).side;
   for (ClosestPoint& answer : found.first(set.found.count)) {
     answer.side = side;

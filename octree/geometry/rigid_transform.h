@@ -42,6 +42,12 @@ class RigidTransform {
   /// Limit of the coordinates of points, and of those of a translation.
   static constexpr double kMaxCoordinate = 0x1p500;
 
+  /// Whether the coordinates of a point are at most kMaxCoordinate.
+  static bool is_in_range(const Vec3& p) {
+    return std::fabs(p.x) <= kMaxCoordinate && std::fabs(p.y) <= kMaxCoordinate &&
+           std::fabs(p.z) <= kMaxCoordinate;
+  }
+
   /// Returns nothing if the pose is not valid; see Pose.
   static std::optional<RigidTransform> of(const Pose& pose);
 

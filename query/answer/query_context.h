@@ -76,6 +76,13 @@ inline std::uint64_t max_units(const QueryOptions& options) {
   return options.max_work == QueryOptions::kNoLimit ? octree::WorkLimit::kNone : options.max_work;
 }
 
+/// Takes work that was spent from the limit of the options, if there is one.
+inline void spend(QueryOptions& options, std::uint64_t units) {
+  if (options.max_work != QueryOptions::kNoLimit)
+    options.max_work -=
+        static_cast<std::uint32_t>(std::min<std::uint64_t>(units, options.max_work));
+}
+
 /// Returns whether answers that are not exact may depend on earlier queries: those of real-time
 /// queries, which depend on the resident pages in any case, and those of limited work, which spend
 /// less of it where they start near the last answer. Not in a batch: its order is not the caller's.

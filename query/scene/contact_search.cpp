@@ -1,18 +1,16 @@
 #include "query/scene/contact_search.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "octree/geometry/error_bounds.h"
 #include "octree/geometry/strict_math.h"
+#include "octree/nearest/interval_ends.h"
 #include "query/answer/query_context.h"
 #include "query/scene/scene_model.h"
 #include "query/shell/vectors.h"
 
 namespace planetree::query {
 namespace {
-
-double rounded_up(double value) { return value + octree::kEndRounding * std::fabs(value); }
 
 // Returns a time at which the ball has touched a surface point for certain, or infinity. Near the
 // contact, the ball comes nearer to the point by about its way times the cosine of the angle.
@@ -35,15 +33,6 @@ double certain_touch(const Sweep& local, double t, const Vec3& contact, double e
   return std::numeric_limits<double>::infinity();
 }
 
-// Moves a contact from the frame of an instance to the world.
-void to_world(const octree::RigidTransform& transform, double error, ClosestPoint& at) {
-  if (transform.is_identity()) return;
-  at.lower = std::max(0.0, at.lower - rounded_up(error));
-  at.upper = rounded_up(at.upper + error);
-  at.point = transform.apply(at.point);
-  at.normal = transform.rotate(at.normal);
-}
-
 }  // namespace
 
 SceneProbeState::ContactSearch::ContactSearch(SceneProbeState& scene, const Sweep& sweep,
@@ -57,26 +46,21 @@ SceneProbeState::ContactSearch::ContactSearch(SceneProbeState& scene, const Swee
 
 SceneFirstContact SceneProbeState::ContactSearch::run() noexcept {
   const Vec3 &a = sweep_.from, &b = sweep_.to;
-  const double r = rounded_up(sweep_.radius);
-  const auto below = [r](double x, double y) {
-    const double least = std::min(x, y);
-    return least - rounded_up(r) - octree::kEndRounding * std::fabs(least);
-  };
-  const auto above = [r](double x, double y) { return rounded_up(std::max(x, y) + r); };
-  const Vec3 lower{below(a.x, b.x), below(a.y, b.y), below(a.z, b.z)};
-  const Vec3 upper{above(a.x, b.x), above(a.y, b.y), above(a.z, b.z)};
+  const Vec3 lower{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+  const Vec3 upper{std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
   for (std::size_t index = 0; index < view_.size(); ++index) visit(index, lower, upper);
   return finish();
 }
 
-// lower, upper  corners of a box around the whole motion
+// lower, upper  corners of the box of the way of the centre
 void SceneProbeState::ContactSearch::visit(std::size_t index, const Vec3& lower,
                                            const Vec3& upper) noexcept {
   if (!view_.is_placed(index)) return offer_nothing_known(index);
   const Placement& placement = view_.placement(index);
-  const double way = PlacementMotion::way_bound(placement.twist, seconds_, view_.reach(index));
+  const double reach = octree::upper_end(
+      PlacementMotion::way_bound(placement.twist, seconds_, view_.reach(index)) + sweep_.radius);
   // An only instance is asked, so that the scene answers as its model does.
-  if (view_.size() > 1 && !view_.overlaps(index, lower, upper, way)) return;
+  if (view_.size() > 1 && !view_.overlaps(index, lower, upper, reach)) return;
   const auto motion = PlacementMotion::of(placement, seconds_);
   if (!motion) return offer_nothing_known(index);
   offer(index, ask(index, *motion));
@@ -86,13 +70,11 @@ FirstContact SceneProbeState::ContactSearch::ask(std::size_t index,
                                                  const PlacementMotion& motion) noexcept {
   const PlacementMotion::LocalSweep local = motion.to_local(sweep_);
   Sweep wider = local.sweep;
-  if (local.error > 0) wider.radius = rounded_up(wider.radius + local.error);
+  if (local.error > 0) wider.radius = octree::upper_end(wider.radius + local.error);
   ProbeState& probe = scene_.probe(index);
   const std::uint64_t before = probe.work_spent();
   FirstContact contact = probe.first_contact(wider, options_);
-  if (options_.max_work != QueryOptions::kNoLimit)
-    options_.max_work -= static_cast<std::uint32_t>(
-        std::min<std::uint64_t>(options_.max_work, probe.work_spent() - before));
+  spend(options_, probe.work_spent() - before);
   if (motion.is_identity() || !(contact.t <= 1)) return contact;
   contact.t_upper = certain_touch(local.sweep, contact.t, contact.at.point,
                                   local.error + (contact.at.upper - contact.at.lower));

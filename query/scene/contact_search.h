@@ -34,7 +34,7 @@ class SceneProbeState::ContactSearch {
   InstanceView& view_;
   const Sweep sweep_;
   const double seconds_;
-  QueryOptions options_;
+  QueryOptions options_;                          // with the work that is left
   FirstContact best_;                             // of least t
   std::size_t best_index_;                        // size(): none yet
   double lower_ = kInfinity, upper_ = kInfinity;  // of t, over all instances

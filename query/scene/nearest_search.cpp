@@ -1,45 +1,19 @@
 #include "query/scene/nearest_search.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "octree/geometry/error_bounds.h"
 #include "octree/geometry/strict_math.h"
+#include "octree/nearest/interval_ends.h"
 #include "query/answer/closest_point.h"
 #include "query/answer/query_context.h"
 
 namespace planetree::query {
-namespace {
-
-double rounded_down(double value) { return value - octree::kEndRounding * std::fabs(value); }
-double rounded_up(double value) { return value + octree::kEndRounding * std::fabs(value); }
-
-// Moves an answer from the frame of an instance to the world.
-void to_world(const octree::RigidTransform& transform, double error, std::uint32_t parts,
-              ClosestPoint& answer) {
-  if (transform.is_identity()) return;
-  // A surface that is nearer than the error may lie between the query and its rounded position.
-  if ((parts & (kSide | kNormal)) != 0 && answer.lower <= error &&
-      answer.status != Status::kBeyondMaxDistance) {
-    answer.side = Side::kUnknown;
-    answer.status = Status::kDegraded;
-  }
-  answer.lower = std::max(0.0, rounded_down(answer.lower - error));
-  answer.upper = rounded_up(answer.upper + error);
-  if (answer.status == Status::kBeyondMaxDistance) return;
-  answer.point = transform.apply(answer.point);
-  answer.normal = transform.rotate(answer.normal);
-}
-
-}  // namespace
-
 SceneProbeState::NearestSearch::NearestSearch(SceneProbeState& scene, const Vec3& query,
                                               const QueryOptions& options) noexcept
     : scene_(scene),
       view_(scene.view_),
       query_(query),
       options_(with_defaults(options)),
-      work_left_(options_.max_work),
       best_(unanswered(Status::kBeyondMaxDistance)),
       best_index_(view_.size()) {
   best_.lower = options.max_distance;
@@ -84,18 +58,23 @@ void SceneProbeState::NearestSearch::visit(std::size_t index, std::uint32_t part
 // Returns what an instance answers, in the world frame.
 ClosestPoint SceneProbeState::NearestSearch::ask(std::size_t index, std::uint32_t parts,
                                                  double max_distance) noexcept {
-  const LocalPoint local = scene_.to_local(index, query_);
+  const octree::RigidTransform transform = view_.transform(index);
+  const LocalPoint local = to_local(transform, query_);
   QueryOptions options = options_;
   options.parts = parts;
-  options.max_distance = local.error == 0 ? max_distance : rounded_up(max_distance + local.error);
-  options.max_work = work_left_;
+  options.max_distance =
+      local.error == 0 ? max_distance : octree::upper_end(max_distance + local.error);
   ProbeState& probe = scene_.probe(index);
   const std::uint64_t before = probe.work_spent();
   ClosestPoint answer = probe.closest_point(local.point, options);
-  if (work_left_ != QueryOptions::kNoLimit)
-    work_left_ -= static_cast<std::uint32_t>(
-        std::min<std::uint64_t>(work_left_, probe.work_spent() - before));
-  to_world(view_.transform(index), local.error, parts, answer);
+  spend(options_, probe.work_spent() - before);
+  // A surface that is nearer than the error may lie between the query and its rounded position.
+  if (local.error > 0 && (parts & (kSide | kNormal)) != 0 && answer.lower <= local.error &&
+      answer.status != Status::kBeyondMaxDistance) {
+    answer.side = Side::kUnknown;
+    answer.status = Status::kDegraded;
+  }
+  to_world(transform, local.error, answer);
   return answer;
 }
 

@@ -32,8 +32,7 @@ class SceneProbeState::NearestSearch {
   SceneProbeState& scene_;
   InstanceView& view_;
   const Vec3 query_;
-  const QueryOptions options_;
-  std::uint32_t work_left_;
+  QueryOptions options_;          // with the work that is left
   ClosestPoint best_;             // of least distance; its interval is that of its instance
   std::size_t best_index_;        // size(): none yet
   std::uint32_t best_parts_ = 0;  // that were computed for it

@@ -34,12 +34,12 @@ Result<std::unique_ptr<SceneModel>> SceneModel::open(const std::filesystem::path
   const storage::FileHeader& header = file->header();
   if (const auto checked = check_tree_header(header); !checked) return checked.error();
   const std::uint32_t most = choices.max_page_bytes;
-  if (header.page_bytes > most || header.max_raw_bytes > most)
+  const std::uint32_t needed = std::max(header.page_bytes, header.max_raw_bytes);
+  if (needed > most)
     return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
                       "the file has pages of %u bytes, the scene frames of %u: create the scene "
                       "with a max_page_bytes of at least %u",
-                      std::max(header.page_bytes, header.max_raw_bytes), most,
-                      std::max(header.page_bytes, header.max_raw_bytes));
+                      needed, most, needed);
   const OpenLayers opened =
       OpenLayers::of(header.model, choices.layers & ~std::uint32_t{kAttributeLayer});
   const ModelInfo info = describe(*file);
@@ -48,9 +48,12 @@ Result<std::unique_ptr<SceneModel>> SceneModel::open(const std::filesystem::path
   return model;
 }
 
+QueryArena::Needs SceneModel::needs(const Choices& choices) const noexcept {
+  return arena_needs(file.header(), opened, choices.readers, kMaxGridBytes);
+}
+
 ModelMemory SceneModel::memory(const Choices& choices) const noexcept {
-  const QueryArena::Needs needs =
-      arena_needs(file.header(), opened, choices.readers, kMaxGridBytes);
+  const QueryArena::Needs needs = this->needs(choices);
   ModelMemory memory;
   memory.page_table = file.table_memory_bytes();
   memory.side_grid = needs.side_grid_bytes;
@@ -70,8 +73,7 @@ Result<void> SceneModel::join(ScenePager& pager, cache::Reader& loader, const Ch
   if (!first) return first.error();
   first_page = *first;
   cache::PageCache& cache = pager.cache();
-  auto claimed =
-      QueryArena::claim(arena_needs(file.header(), opened, choices.readers, kMaxGridBytes));
+  auto claimed = QueryArena::claim(needs(choices));
   if (!claimed) return claimed.error();
   arena.emplace(*std::move(claimed));
   if (choices.locking != Locking::kNever && !arena->lock() && choices.locking == Locking::kRequire)

@@ -56,6 +56,9 @@ struct SceneModel {
   /// Memory besides the pages.
   ModelMemory memory(const Choices& choices) const noexcept;
 
+  /// What the arena needs.
+  QueryArena::Needs needs(const Choices& choices) const noexcept;
+
   storage::PageFile file;
   OpenLayers opened;
   ModelInfo info;

@@ -57,8 +57,7 @@ Result<cache::FillResult> ScenePager::fill(const cache::FillRequest& request) no
     for (const Pages& each : files_)
       if (each.first <= request.page && (!pages.file || each.first > pages.first)) pages = each;
   }
-  auto filled = filler_.fill(*pages.file, request.page - pages.first, request);
-  return filled;
+  return filler_.fill(*pages.file, request.page - pages.first, request);
 }
 
 }  // namespace planetree::query

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "octree/geometry/error_bounds.h"
 #include "octree/geometry/strict_math.h"
+#include "octree/nearest/interval_ends.h"
 #include "query/answer/closest_point.h"
 #include "query/answer/model_line.h"
 #include "query/answer/query_context.h"
@@ -15,18 +15,25 @@
 
 namespace planetree::query {
 
-SceneProbeState::LocalPoint SceneProbeState::to_local(std::size_t index,
-                                                      const Vec3& point) const noexcept {
-  const octree::RigidTransform transform = view_.transform(index);
+SceneProbeState::LocalPoint SceneProbeState::to_local(const octree::RigidTransform& transform,
+                                                      const Vec3& point) noexcept {
   if (transform.is_identity()) return {point, 0};
   const double reach = upper_length(point - transform.translation());
   return {transform.apply_inverse(point), transform.position_error(reach)};
 }
 
+void SceneProbeState::to_world(const octree::RigidTransform& transform, double error,
+                               ClosestPoint& answer) noexcept {
+  if (transform.is_identity()) return;
+  answer.lower = octree::lower_end(answer.lower - error);
+  answer.upper = octree::upper_end(answer.upper + error);
+  if (answer.status == Status::kBeyondMaxDistance) return;
+  answer.point = transform.apply(answer.point);
+  answer.normal = transform.rotate(answer.normal);
+}
+
 bool SceneProbeState::can_place(const Vec3& point) const noexcept {
-  constexpr double kMax = octree::RigidTransform::kMaxCoordinate;
-  return view_.is_still() ||
-         (std::fabs(point.x) <= kMax && std::fabs(point.y) <= kMax && std::fabs(point.z) <= kMax);
+  return view_.is_still() || octree::RigidTransform::is_in_range(point);
 }
 
 SceneClosestPoint SceneProbeState::closest_point(const Vec3& query,
@@ -80,15 +87,13 @@ Containment SceneProbeState::side_of(std::size_t index, const Vec3& query,
   // A solid has no inside out of its box. The other means decide anywhere.
   if (means == SideMeans::kWindingNumber && view_.bound(index) > 0)
     return {Side::kOutside, Status::kExact};
-  const LocalPoint local = to_local(index, query);
+  const LocalPoint local = to_local(view_.transform(index), query);
   ProbeState& probe = this->probe(index);
   const std::uint64_t before = probe.work_spent();
   Containment side = probe.contains(local.point, left);
   if (local.error > 0 && side.side != Side::kUnknown && is_surface_near(probe, local, left))
     side = {Side::kUnknown, Status::kDegraded};
-  if (left.max_work != QueryOptions::kNoLimit)
-    left.max_work -= static_cast<std::uint32_t>(
-        std::min<std::uint64_t>(left.max_work, probe.work_spent() - before));
+  spend(left, probe.work_spent() - before);
   return side;
 }
 
@@ -119,7 +124,7 @@ void SceneProbeState::note_motion(const Vec3& position, const Vec3& velocity) no
   const Twist& twist = view_.placement(index).twist;
   const Vec3 relative =
       velocity - twist.linear - cross(twist.angular, position - transform.translation());
-  probe(index).note_motion(to_local(index, position).point, transform.rotate_inverse(relative));
+  probe(index).note_motion(to_local(transform, position).point, transform.rotate_inverse(relative));
 }
 
 }  // namespace planetree::query

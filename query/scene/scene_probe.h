@@ -47,7 +47,12 @@ class SceneProbeState {
   Containment side_of(std::size_t index, const Vec3& query, QueryOptions& left) noexcept;
   static bool is_surface_near(ProbeState& probe, const LocalPoint& local,
                               QueryOptions options) noexcept;
-  LocalPoint to_local(std::size_t index, const Vec3& point) const noexcept;
+  static LocalPoint to_local(const octree::RigidTransform& transform, const Vec3& point) noexcept;
+  /// Moves an answer from the frame of an instance to the world.
+  ///
+  /// error  of the query point, see LocalPoint
+  static void to_world(const octree::RigidTransform& transform, double error,
+                       ClosestPoint& answer) noexcept;
   /// Whether a point can be brought into the frames of all instances.
   bool can_place(const Vec3& point) const noexcept;
 

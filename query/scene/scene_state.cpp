@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <bit>
 #include <chrono>
-#include <cmath>
 #include <new>
 #include <thread>
 #include <utility>
 
 #include "octree/geometry/rigid_transform.h"
 #include "octree/geometry/startup_check.h"
+#include "query/serve/cache_counts.h"
+#include "query/shell/vectors.h"
 
 namespace planetree::query {
 namespace {
@@ -43,15 +44,6 @@ Result<void> check(const SceneOptions& options) {
   if (options.policy > EvictionPolicy::kTwoQ)
     return bad_argument("the eviction policy does not exist; choose a value of EvictionPolicy");
   return {};
-}
-
-bool is_finite(const Vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-bool is_within_reach(const Vec3& v) {
-  constexpr double kMax = octree::RigidTransform::kMaxCoordinate;
-  return std::fabs(v.x) <= kMax && std::fabs(v.y) <= kMax && std::fabs(v.z) <= kMax;
 }
 
 }  // namespace
@@ -147,8 +139,6 @@ Result<void> SceneState::start() {
 }
 
 SceneState::~SceneState() {
-  for (const auto& model : models_)
-    if (model->serving) threads_->remove(model->serving->arena.fetch_requests);
   threads_.reset();
   for (const auto& model : models_) model->leave(*pager_);
 }
@@ -213,8 +203,8 @@ Result<void> SceneState::check_pose(const SceneModel& model, const Pose& pose,
     return bad_argument("the pose is not valid: give a quaternion of length 1 and finite numbers");
   if (!is_finite(twist.linear) || !is_finite(twist.angular))
     return bad_argument("the twist is not finite");
-  if (!transform->is_identity() &&
-      !(is_within_reach(model.info.box_lower) && is_within_reach(model.info.box_upper)))
+  if (!transform->is_identity() && !(octree::RigidTransform::is_in_range(model.info.box_lower) &&
+                                     octree::RigidTransform::is_in_range(model.info.box_upper)))
     return bad_argument("a model with coordinates above 2^500 cannot be moved");
   return {};
 }
@@ -307,23 +297,13 @@ Result<ModelMemory> SceneState::memory(InstanceId instance) const noexcept {
 }
 
 SceneStats SceneState::stats() const noexcept {
-  const cache::CacheStats cache = pager_->cache().stats();
   SceneStats stats;
+  report_cache(pager_->cache().stats(), stats);
   stats.instances = instances_;
   stats.models = static_cast<std::uint32_t>(models_.size());
-  stats.page_hits = cache.hits;
-  stats.page_misses = cache.misses;
-  stats.pages_read = cache.fills;
-  stats.pages_evicted = cache.evictions;
-  stats.quarantined_pages = cache.quarantined;
-  stats.waits_given_up = cache.given_up;
   stats.fetch_requests_served = threads_->fetch_requests_served();
   stats.pages_prefetched = threads_->pages_prefetched();
-  stats.frames = cache.frame_count;
-  stats.arena_bytes = cache.arena_bytes;
   for (const auto& model : models_) stats.model_bytes += model->bytes;
-  stats.table_bytes = cache.table_bytes + cache.reserved_bytes;
-  stats.budget_bytes = cache.budget_bytes;
   return stats;
 }
 

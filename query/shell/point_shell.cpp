@@ -20,15 +20,12 @@ namespace {
 
 using octree::RigidTransform;
 
-bool is_coordinate(double value) { return std::fabs(value) <= RigidTransform::kMaxCoordinate; }
-bool is_position(const Vec3& p) {
-  return is_coordinate(p.x) && is_coordinate(p.y) && is_coordinate(p.z);
-}
 bool is_number(double value) { return value >= 0 && std::isfinite(value); }
 
 bool is_valid(const ShellOptions& options) {
   return is_number(options.stiffness) && is_number(options.margin) && options.max_depth >= 0 &&
-         is_position(options.reference) && options.depth_rule <= DepthRule::kTwoSided &&
+         RigidTransform::is_in_range(options.reference) &&
+         options.depth_rule <= DepthRule::kTwoSided &&
          options.force_direction <= ForceDirection::kModelNormal &&
          options.side_rule <= SideRule::kSurface && options.wait <= Wait::kNever;
 }
@@ -61,7 +58,7 @@ Result<PointShell> PointShell::create(std::span<const ShellPoint> points) {
                       "a shell has 1 to %zu points, not %zu", kMaxPoints, points.size());
   const octree::FpEnvironmentGuard host;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!is_position(points[i].position))
+    if (!RigidTransform::is_in_range(points[i].position))
       return bad_shell("give a position with coordinates of at most 2^500", i);
     const double length2 = query::dot(points[i].normal, points[i].normal);
     if (!(std::fabs(length2 - 1) <= Pose::kMaxLengthError))
