@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <thread>
 #include <vector>
 
+#include "query/scene/scene_state.h"
 #include "tests/cache/allocation_count.h"
 #include "tests/query/call_trap.h"
+#include "tests/query/eventually.h"
 #include "tests/query/lock_count.h"
 #include "tests/query/scene/scene_fixture.h"
 
@@ -67,6 +70,27 @@ TEST_F(SceneCosts, AllocateLockAndCallNothing) {
   EXPECT_EQ(counts.calls, 0u);
   EXPECT_GT(counts.degraded, 0u) << "no page was ever missing";
   EXPECT_LT(counts.degraded, 3000u);
+}
+
+TEST_F(SceneCosts, RemovingWaitsForTheQueriesThatRun) {
+  const auto state = SceneState::create(small_options());
+  ASSERT_TRUE(state);
+  SceneState& scene = **state;
+  const auto ball = scene.add(ball_.path(), {}, kAllLayers);
+  ASSERT_TRUE(ball);
+  scene.sections().enter(1);
+  std::atomic<bool> is_removed{false};
+  std::thread remover([&] {
+    EXPECT_TRUE(scene.remove(*ball));
+    is_removed = true;
+  });
+  EXPECT_TRUE(eventually([&] { return !scene.info(*ball); })) << "queries still find it";
+  for (int i = 0; i < 100 && !is_removed; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_FALSE(is_removed);
+  scene.sections().leave(1);
+  remover.join();
+  EXPECT_TRUE(is_removed);
 }
 
 // Two threads ask while one moves an instance and another adds and removes others.

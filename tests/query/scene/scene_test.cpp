@@ -189,6 +189,24 @@ TEST_F(SceneTest, MovesAreSeenByTheNextQuery) {
   }
 }
 
+// The second ball is farther, but only its root is in memory: it might be the nearer one.
+TEST_F(SceneTest, IsExactOnlyIfNoOtherInstanceCanBeNearer) {
+  Scene scene = make_scene();
+  const InstanceId known = add(scene, fine_ball_, at(0));
+  SceneProbe probe = make_probe(scene);
+  const Vec3 query{1, 0.3, 0};
+  EXPECT_EQ(probe.closest_point(query, {.parts = kDistance}).status, Status::kExact);
+  add(scene, ball_, at(2.01));
+  const SceneClosestPoint now =
+      probe.closest_point(query, {.parts = kDistance, .wait = Wait::kNever});
+  EXPECT_EQ(now.instance, known);
+  EXPECT_EQ(now.status, Status::kDegraded);
+  const SceneClosestPoint then = probe.closest_point(query, {.parts = kDistance});
+  EXPECT_EQ(then.instance, known);
+  EXPECT_EQ(then.status, Status::kExact);
+  EXPECT_LT(now.lower, then.lower);
+}
+
 // A point that a rotation brings onto the surface is on neither side for certain.
 TEST_F(SceneTest, SidesNearerThanRoundingAreUnknown) {
   Scene scene = make_scene();
