@@ -184,7 +184,7 @@ Found ProbeState::find_contacts(const Vec3& query, double radius, std::span<Clos
   QueryOptions limited = with_defaults(options);
   RunningQuery running(*this, PageAccess::Query::kClosestPoint, options.wait);
   const ContactSet set = query::find_contacts(running.context(), query, radius, limited,
-                                              model_.contacts[reader_.index()], found);
+                                              model_.contact_triangles(reader_.index()), found);
   side_searches_ += coherence_.searched_side;
   last_parts_ = computed_parts(options.parts | kDistance);
   last_side_rule_ = options.side_rule;

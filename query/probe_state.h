@@ -14,6 +14,7 @@
 #include "planetree/contact.h"
 #include "planetree/types.h"
 #include "query/answer/contact_set.h"
+#include "query/answer/line_hits.h"
 #include "query/answer/model_line.h"
 #include "query/answer/query_context.h"
 #include "query/answer/triangle_set.h"
@@ -61,7 +62,10 @@ class ProbeState {
   Found find_triangles(const TriangleSetQuery& query, std::span<ClosestPoint> found,
                        const QueryOptions& options) noexcept;
   /// See Probe::first_hit.
-  RayHit first_hit(const Ray& ray, const QueryOptions& options) noexcept;
+  RayHit first_hit(const Ray& ray, const QueryOptions& options) noexcept {
+    return find_first_hit(ray, options).hit;
+  }
+  FirstHit find_first_hit(const Ray& ray, const QueryOptions& options) noexcept;
   /// See Probe::all_hits.
   Found all_hits(const Ray& ray, std::span<RayHit> hits, const QueryOptions& options) noexcept;
   /// See Probe::first_contact.

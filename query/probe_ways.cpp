@@ -40,15 +40,14 @@ void ProbeState::note_missing_way(const ModelLine& way, double end, double radiu
   running.note_degraded();
 }
 
-RayHit ProbeState::first_hit(const Ray& ray, const QueryOptions& options) noexcept {
+FirstHit ProbeState::find_first_hit(const Ray& ray, const QueryOptions& options) noexcept {
   if (!is_valid(ray.origin, options) || !is_valid(ray)) return {};
   const QueryOptions limited = with_defaults(options);
   const ModelLine way(model_.geometry.scale, ray);
   RunningQuery running(*this, PageAccess::Query::kClosestPoint, options.wait);
-  bool is_degraded = false;
-  const RayHit hit = query::first_hit(running.context(), way, limited, is_degraded);
-  if (is_degraded) note_missing_way(way, way.range().upper, 0, 1, limited, running);
-  return hit;
+  const FirstHit first = query::first_hit(running.context(), way, limited);
+  if (first.is_degraded) note_missing_way(way, way.range().upper, 0, 1, limited, running);
+  return first;
 }
 
 Found ProbeState::all_hits(const Ray& ray, std::span<RayHit> hits,

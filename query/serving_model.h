@@ -35,8 +35,9 @@ struct ServingModel {
   cache::FetchTerms fetcher_terms{};      ///< how fetch threads wait for pages
   BatchThreads* batch_threads = nullptr;  ///< null: batches run on the caller's thread
   std::span<const std::unique_ptr<ProbeState>> batch_probes;  ///< one per thread of batch_threads
-  std::span<octree::ContactTriangles> contacts;    ///< indexed by reader; memory of one query each
-  mutable std::atomic<std::uint64_t> degraded{0};  ///< number of degraded answers
+  std::span<octree::ContactTriangles> contacts;               ///< see contact_triangles()
+  std::uint32_t contacts_reader = 0;                          ///< reader index of the first of them
+  mutable std::atomic<std::uint64_t> degraded{0};             ///< number of degraded answers
   mutable std::atomic<std::uint64_t> degraded_without_misses{0};  ///< of these, lacking no page
 
   /// Counts a degraded answer.
@@ -47,6 +48,10 @@ struct ServingModel {
     if (!missed) degraded_without_misses.fetch_add(1, std::memory_order_relaxed);
   }
 
+  /// Memory for one query for contacts of the probe with this reader index.
+  octree::ContactTriangles& contact_triangles(std::uint32_t reader) const noexcept {
+    return contacts[reader - contacts_reader];
+  }
   /// `reader` is the reader index of a probe.
   FetchRequests& requests(std::uint32_t reader) const noexcept {
     return arena.fetch_requests[reader];

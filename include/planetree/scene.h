@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <span>
 
 #include "planetree/contact.h"
 #include "planetree/error.h"
@@ -50,6 +51,9 @@ struct SceneOptions {
   unsigned fetch_threads = 1;
   unsigned max_probes = 4;            ///< maximum number of probes, 1 to OpenOptions::kMaxProbes
   std::uint32_t max_instances = 256;  ///< maximum number of instances, 1 to kMaxInstances
+  /// Maximum number of contacts that SceneProbe::contacts finds, 1 to kMaxContacts. Each probe
+  /// takes some 200 bytes for each.
+  std::uint32_t max_contacts = 64;
   /// Size of a frame in bytes: a power of two, 4 KiB to 256 KiB. A file with greater pages
   /// (ModelInfo::page_bytes) cannot be added; one with smaller pages takes a whole frame for each.
   std::uint32_t max_page_bytes = 65536;
@@ -59,6 +63,7 @@ struct SceneOptions {
   bool use_io_uring = true;                        ///< as OpenOptions::use_io_uring
 
   static constexpr std::uint32_t kMaxInstances = std::uint32_t{1} << 20;  ///< limit of the member
+  static constexpr std::uint32_t kMaxContacts = 4096;                     ///< limit of the member
 };
 
 /// State and counters of a scene. Counters start at 0 when it is created and cover all its models,
@@ -180,6 +185,12 @@ struct SceneFirstContact : FirstContact {
   InstanceId instance = kNoInstance;  ///< kNoInstance if no contact was found
 };
 
+/// The first triangle of any instance that a ray passes through: point and normal in the world
+/// frame.
+struct SceneRayHit : RayHit {
+  InstanceId instance = kNoInstance;  ///< kNoInstance if there is no hit
+};
+
 /// One thread's access to a scene. It keeps coherence with each model.
 ///
 /// Queries are those of Probe, and make the same promises: with Wait::kNever no allocation, lock,
@@ -243,6 +254,39 @@ class PLANETREE_API SceneProbe {
   /// options  as Probe::first_contact has them.
   SceneFirstContact first_contact(const Sweep& sweep, double seconds = 0,
                                   const QueryOptions& options = {}) noexcept;
+
+  /// Finds the contacts of a ball about the query point with the instances, as Probe::contacts does
+  /// with a model: those of all instances, as many as fit, the nearest first; where distances are
+  /// equal, those of the instance added first.
+  ///
+  /// - Intervals hold the rounding of poses. Whether a contact is within the radius is decided by
+  ///   its distance as computed.
+  /// - Sides and normals are those with respect to the contact's instance; see closest_point().
+  ///
+  /// query    as closest_point() has it; a bad one finds nothing.
+  /// radius   model units, >= 0, may be infinite. Another value finds nothing.
+  /// found    receives the answers; at most SceneOptions::max_contacts.
+  /// options  as Probe::contacts has them; max_work is that of all instances together.
+  /// return   how many were found. `complete` says that these are all contacts within the radius.
+  ///          It is false if `found` is full and other instances are near enough to have more.
+  Found contacts(Vec3 query, double radius, std::span<SceneClosestPoint> found,
+                 const QueryOptions& options = {}) noexcept;
+
+  /// Finds the first triangle of any instance that a ray passes through, as Probe::first_hit does
+  /// in a model: the hit of least `t`, as computed, and where these are equal, of the instance
+  /// added first.
+  ///
+  /// - Which triangles a ray passes through is decided exactly for the ray rounded into the frame
+  ///   of an instance. kExact is about that ray.
+  /// - t_lower is certified for the ray itself: before it the ray passes through nothing. So it may
+  ///   be finite without a hit, where the ray passes by a triangle within the error of the pose.
+  /// - t_upper is certified too. For an instance whose pose is not the default one it is finite if
+  ///   the point is well inside of a triangle that is not too thin.
+  ///
+  /// ray      world frame. With coordinates above 2^500 it gives kBadQuery if an instance has a
+  ///          pose that is not the default one.
+  /// options  as Probe::first_hit has them; max_work is that of all instances together.
+  SceneRayHit first_hit(const Ray& ray, const QueryOptions& options = {}) noexcept;
 
   /// States where the tool is and how it moves, as Probe::motion does. The fetch threads prefetch
   /// pages of the instance that answered last, along the motion relative to it.

@@ -18,14 +18,16 @@ struct Corridor {
 /// Receives the triangles that near_triangles() finds, in any order, each once.
 class NearTriangleSink {
  public:
-  virtual ~NearTriangleSink() = default;
-
   /// Distance beyond which no triangle is wanted, as triangles are evaluated; model frame. It may
   /// shrink while triangles are taken.
   virtual double reach() const noexcept = 0;
   /// Takes a triangle. Its distance may exceed reach().
   virtual void take(const TriangleResult& result, const Triangle& corners,
                     std::uint64_t index) noexcept = 0;
+
+ protected:
+  // Not virtual: a sink may lie in an arena, where nobody runs destructors.
+  ~NearTriangleSink() = default;
 };
 
 /// Receives the triangles that triangles_in_corridor() finds, in any order, each once.

@@ -59,6 +59,8 @@ class FirstKept final : public octree::CorridorSink {
   bool is_cut() const { return is_cut_; }
   double lower() const { return lower_; }
   double upper() const { return upper_; }
+  /// Of the only hit that is kept.
+  double tolerance() const { return tolerance_; }
   /// Position beyond which no hit is wanted.
   double last_wanted() const {
     if (!is_full() || (wants_all_ && !is_cut_)) return range_.upper;
@@ -83,6 +85,10 @@ class FirstKept final : public octree::CorridorSink {
     double area2 = 0;
     octree::face_normal(corners, normal, area2);
     hit.normal = {normal.x(), normal.y(), normal.z()};
+    if (kept_.size() > 1) return;
+    const octree::Point direction = way_.line().direction();
+    const double cosine = std::fabs(normal.dot(direction)) / direction.norm();
+    tolerance_ = crossing_tolerance(corners, hit.barycentric, area2, cosine);
   }
 
   const ModelLine& way_;
@@ -93,6 +99,7 @@ class FirstKept final : public octree::CorridorSink {
   std::size_t count_ = 0;
   bool is_cut_ = false;
   double lower_ = kInfinity, upper_ = kInfinity;
+  double tolerance_ = 0;
 };
 
 // Converts a hit to the caller's positions and model units.
@@ -135,23 +142,38 @@ LineHits find_hits(const QueryContext& context, const ModelLine& way, bool wants
   return {{kept.count(), is_complete},
           is_degraded ? std::min(unread, kept.lower()) : kept.lower(),
           kept.upper(),
-          is_degraded};
+          is_degraded,
+          kept.tolerance()};
 }
 
-RayHit first_hit(const QueryContext& context, ModelLine way, const QueryOptions& options,
-                 bool& is_degraded) noexcept {
+// Barycentric coordinates err by about 2^-53 over the square of the height's share, 2^-29, and are
+// at least 2^-8. The crossing of the other way is less than 2^-24 of the edge away, the edges of
+// the triangle at least 2^-20.
+double crossing_tolerance(const octree::Triangle& corners, const Vec3& barycentric, double area2,
+                          double cosine) {
+  constexpr double kMinShare = 0x1p-8, kMinCosine = 0x1p-8, kMinHeight = 0x1p-12;
+  constexpr double kTolerance = 0x1p-33;  // 2^-24 over 2 / kMinCosine
+  const double edge = std::sqrt(
+      std::max({(corners[1] - corners[0]).squaredNorm(), (corners[2] - corners[1]).squaredNorm(),
+                (corners[0] - corners[2]).squaredNorm()}));
+  const bool is_inside = std::min({barycentric.x, barycentric.y, barycentric.z}) >= kMinShare;
+  const bool is_sound = cosine >= kMinCosine && std::sqrt(area2) >= kMinHeight * edge * edge;
+  return is_inside && is_sound && edge > octree::kUnresolvedLength ? kTolerance * edge : 0;
+}
+
+FirstHit first_hit(const QueryContext& context, ModelLine way,
+                   const QueryOptions& options) noexcept {
   const bool is_shortened = way.end_after(context.model.scale.in(options.max_distance));
   RayHit hit;
   const LineHits found = find_hits(context, way, false, options, {&hit, 1});
-  is_degraded = found.is_degraded;
   const bool is_beyond = found.found.count == 0 && is_shortened;
   const double lower = is_beyond ? std::min(found.lower, way.range().upper) : found.lower;
   hit.t_lower = way.out_below(lower);
   hit.t_upper = way.out_above(found.upper);
-  hit.status = is_degraded ? Status::kDegraded
-               : is_beyond ? Status::kBeyondMaxDistance
-                           : Status::kExact;
-  return hit;
+  hit.status = found.is_degraded ? Status::kDegraded
+               : is_beyond       ? Status::kBeyondMaxDistance
+                                 : Status::kExact;
+  return {hit, found.is_degraded, context.model.scale.out(found.tolerance)};
 }
 
 }  // namespace planetree::query

@@ -15,6 +15,9 @@ struct LineHits {
   /// hit, whatever was not read.
   double lower, upper;
   bool is_degraded = false;  ///< some may lack, because pages or work did
+  /// How far from the way, in the model frame, another one may be and still certainly pass through
+  /// the first triangle; see crossing_tolerance().
+  double tolerance = 0;
 };
 
 /// Writes the first triangles that a way passes through to `hits`, as Probe::all_hits() states.
@@ -24,10 +27,27 @@ struct LineHits {
 LineHits find_hits(const QueryContext& context, const ModelLine& way, bool wants_all,
                    const QueryOptions& options, std::span<RayHit> hits) noexcept;
 
-/// See Probe::first_hit. The rules of find_hits() apply.
+/// Returns how far from a way another one may be, at each position, so that it certainly passes
+/// through a triangle that the way passes through, and within twice that distance over the cosine
+/// of the angle to the normal. Lengths are in the frame of the corners. It is 0 unless the crossing
+/// is well inside of a triangle that is not thin: what is computed here then errs by far less than
+/// what it is compared with.
 ///
-/// is_degraded  receives whether pages or work lacked
-RayHit first_hit(const QueryContext& context, ModelLine way, const QueryOptions& options,
-                 bool& is_degraded) noexcept;
+/// barycentric  of the crossing
+/// area2        squared length of the cross product of two edges
+/// cosine       of the angle between way and normal, its magnitude
+double crossing_tolerance(const octree::Triangle& corners, const Vec3& barycentric, double area2,
+                          double cosine);
+
+/// The first hit, with what a moved ray needs to know.
+struct FirstHit {
+  RayHit hit;
+  bool is_degraded = false;  ///< pages or work lacked
+  double tolerance = 0;      ///< model units; see LineHits::tolerance
+};
+
+/// See Probe::first_hit. The rules of find_hits() apply.
+FirstHit first_hit(const QueryContext& context, ModelLine way,
+                   const QueryOptions& options) noexcept;
 
 }  // namespace planetree::query

@@ -12,6 +12,9 @@ namespace planetree::query {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Relative error of a t at which a ray enters a box: a difference and a quotient err by 2 u;
+// times 4.
+constexpr double kClipRounding = 0x1p-50;
 
 double length_above(const Vec3& v) {
   return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}) * 2;
@@ -26,7 +29,7 @@ void InstanceView::cut(cache::ArenaLayout& layout, std::uint32_t max_instances,
   view.versions_ = layout.cut<std::uint64_t>(max_instances);
   view.placements_ = layout.cut<Placement>(max_instances);
   for (std::span<double>& corners : view.boxes_) corners = layout.cut<double>(max_instances);
-  view.squared_ = layout.cut<double>(max_instances);
+  view.keys_ = layout.cut<double>(max_instances);
 }
 
 void InstanceView::refresh(std::span<const InstanceSlot> slots, std::uint64_t changes) noexcept {
@@ -105,27 +108,52 @@ bool InstanceView::overlaps(std::size_t index, const Vec3& lower, const Vec3& up
 }
 
 void InstanceView::compute_bounds(const Vec3& point) noexcept {
-  octree::squared_box_distances(boxes_, point, squared_.first(size_));
+  octree::squared_box_distances(boxes_, point, keys_.first(size_));
 }
 
-double InstanceView::least_square() const noexcept {
-  return octree::least_value(squared_.first(size_));
+double InstanceView::least_key() const noexcept { return octree::least_value(keys_.first(size_)); }
+
+octree::LineRange InstanceView::range_in_box(std::size_t index, const Ray& ray) const noexcept {
+  octree::LineRange range{ray.t_min, ray.t_max};
+  const double origin[] = {ray.origin.x, ray.origin.y, ray.origin.z};
+  const double direction[] = {ray.direction.x, ray.direction.y, ray.direction.z};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double first = boxes_[axis][index] - origin[axis];
+    const double last = boxes_[axis + 3][index] - origin[axis];
+    if (direction[axis] == 0) {
+      if (first > 0 || last < 0) return {1, 0};
+      continue;
+    }
+    const bool is_upward = direction[axis] > 0;
+    const double entry = (is_upward ? first : last) / direction[axis];
+    const double exit = (is_upward ? last : first) / direction[axis];
+    range.lower = std::max(range.lower, entry - std::fabs(entry) * kClipRounding);
+    range.upper = std::min(range.upper, exit + std::fabs(exit) * kClipRounding);
+  }
+  return range;
 }
 
-double InstanceView::least_bound() const noexcept { return bound_of(least_square()); }
+void InstanceView::compute_entries(const Ray& ray) noexcept {
+  for (std::size_t index = 0; index < size_; ++index) {
+    const octree::LineRange range = range_in_box(index, ray);
+    keys_[index] = range.lower <= range.upper ? range.lower : kInfinity;
+  }
+}
+
+double InstanceView::least_bound() const noexcept { return bound_of(least_key()); }
 
 std::size_t InstanceView::nearest() const noexcept {
-  const double least = least_square();
+  const double least = least_key();
   if (least == kInfinity) return size_;
-  const auto all = squared_.first(size_);
+  const auto all = keys_.first(size_);
   return static_cast<std::size_t>(std::find(all.begin(), all.end(), least) - all.begin());
 }
 
 double InstanceView::bound_of(double squared) noexcept {
-  // See squared_box_distances() for the error of the square.
+  // See keys_box_distances() for the error of the square.
   return squared < 0x1p-1000 ? 0 : std::sqrt(squared) * (1 - 0x1p-49);
 }
 
-void InstanceView::mark_visited(std::size_t index) noexcept { squared_[index] = kInfinity; }
+void InstanceView::mark_visited(std::size_t index) noexcept { keys_[index] = kInfinity; }
 
 }  // namespace planetree::query

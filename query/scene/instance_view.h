@@ -6,7 +6,9 @@
 
 #include "cache/prefaulted_memory.h"
 #include "octree/geometry/box_distances.h"
+#include "octree/geometry/line_crossing.h"
 #include "octree/geometry/rigid_transform.h"
+#include "planetree/contact.h"
 #include "planetree/scene.h"
 #include "planetree/types.h"
 #include "query/scene/instance_table.h"
@@ -50,15 +52,24 @@ class InstanceView {
   void compute_bounds(const Vec3& point) noexcept;
   /// Returns the least bound of the instances that are not marked as visited; infinite if all are.
   double least_bound() const noexcept;
-  /// Returns the first instance that has it; size() if all are visited.
+  /// Computes for all instances a lower bound of the t at which a ray enters the box, infinite if
+  /// it does not meet the box. The calls below are then about these bounds.
+  void compute_entries(const Ray& ray) noexcept;
+  /// Returns the least entry of the instances that are not marked as visited.
+  double least_entry() const noexcept { return least_key(); }
+  /// Returns bounds of the t at which a ray is in the box of an instance: within [t_min, t_max],
+  /// and lower > upper if there is none.
+  octree::LineRange range_in_box(std::size_t index, const Ray& ray) const noexcept;
+
+  /// Returns the first instance of the least bound; size() if all are visited.
   std::size_t nearest() const noexcept;
   /// Lower bound of the distance of an instance that is not visited; 0 if the point is in its box.
-  double bound(std::size_t index) const noexcept { return bound_of(squared_[index]); }
+  double bound(std::size_t index) const noexcept { return bound_of(keys_[index]); }
   void mark_visited(std::size_t index) noexcept;
 
  private:
   static double bound_of(double squared) noexcept;
-  double least_square() const noexcept;
+  double least_key() const noexcept;
   void load(std::size_t index, const InstanceSlot& slot) noexcept;
   void place_box(std::size_t index) noexcept;
 
@@ -69,7 +80,7 @@ class InstanceView {
   std::span<std::uint64_t> versions_;  // of the placement, see SeqLock
   std::span<Placement> placements_;
   octree::BoxColumns boxes_;
-  std::span<double> squared_;  // of bounds; infinite: visited
+  std::span<double> keys_;  // squares of bounds, or entries; infinite: visited
   std::size_t size_ = 0;
   std::uint64_t changes_ = 0;
   bool is_still_ = true;

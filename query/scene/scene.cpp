@@ -78,6 +78,17 @@ SceneFirstContact SceneProbe::first_contact(const Sweep& sweep, double seconds,
   return state_->first_contact(sweep, seconds, options);
 }
 
+Found SceneProbe::contacts(Vec3 query, double radius, std::span<SceneClosestPoint> found,
+                           const QueryOptions& options) noexcept {
+  const octree::FpEnvironmentGuard host;
+  return state_->contacts(query, radius, found, options);
+}
+
+SceneRayHit SceneProbe::first_hit(const Ray& ray, const QueryOptions& options) noexcept {
+  const octree::FpEnvironmentGuard host;
+  return state_->first_hit(ray, options);
+}
+
 void SceneProbe::motion(Vec3 position, Vec3 velocity) noexcept {
   const octree::FpEnvironmentGuard host;
   state_->note_motion(position, velocity);

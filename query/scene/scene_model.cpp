@@ -84,6 +84,8 @@ Result<void> SceneModel::join(ScenePager& pager, cache::Reader& loader, const Ch
     serving = make_serving_model(file.header(), opened, cache, arena->parts());
     serving->query_terms = choices.query_terms;
     serving->fetcher_terms = choices.fetcher_terms;
+    serving->contacts = choices.contacts;
+    serving->contacts_reader = choices.fetch_threads + 1;
     cache::Reader window = cache.window(loader.index(), *first);
     if (const auto loaded = load_model(*serving, file, opened, window); !loaded)
       return loaded.error();

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,7 @@ struct SceneModel {
     unsigned fetch_threads = 0;  ///< of them
     Locking locking = Locking::kTry;
     cache::FetchTerms query_terms, fetcher_terms;
+    std::span<octree::ContactTriangles> contacts;  ///< of the scene, one for each probe
   };
 
   SceneModel(storage::PageFile its_file, const OpenLayers& its_layers, const ModelInfo& its_info)

@@ -9,7 +9,9 @@
 #include "query/answer/model_line.h"
 #include "query/answer/query_context.h"
 #include "query/scene/contact_search.h"
+#include "query/scene/contact_set_search.h"
 #include "query/scene/nearest_search.h"
+#include "query/scene/ray_search.h"
 #include "query/scene/scene_model.h"
 #include "query/shell/vectors.h"
 
@@ -114,6 +116,23 @@ SceneFirstContact SceneProbeState::first_contact(const Sweep& sweep, double seco
   const Section section(*this);
   if (!can_place(sweep.from) || !can_place(sweep.to)) return {};
   return ContactSearch(*this, sweep, seconds, options).run();
+}
+
+Found SceneProbeState::contacts(const Vec3& query, double radius,
+                                std::span<SceneClosestPoint> found,
+                                const QueryOptions& options) noexcept {
+  if (!is_valid(query, options) || !(radius >= 0)) return {};
+  const Section section(*this);
+  if (!can_place(query)) return {};
+  return ContactSetSearch(*this, query, radius, options, found).run();
+}
+
+SceneRayHit SceneProbeState::first_hit(const Ray& ray, const QueryOptions& options) noexcept {
+  if (!is_valid(ray.origin, options) || !is_valid(ray)) return {};
+  const Section section(*this);
+  if (!can_place(ray.origin) || !(view_.is_still() || RaySearch::can_turn(ray.direction)))
+    return {};
+  return RaySearch(*this, ray, options).run();
 }
 
 void SceneProbeState::note_motion(const Vec3& position, const Vec3& velocity) noexcept {

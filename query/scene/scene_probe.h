@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 
 #include "cache/reader.h"
@@ -27,12 +28,17 @@ class SceneProbeState {
   SceneContainment contains(const Vec3& query, const QueryOptions& options) noexcept;
   SceneFirstContact first_contact(const Sweep& sweep, double seconds,
                                   const QueryOptions& options) noexcept;
+  Found contacts(const Vec3& query, double radius, std::span<SceneClosestPoint> found,
+                 const QueryOptions& options) noexcept;
+  SceneRayHit first_hit(const Ray& ray, const QueryOptions& options) noexcept;
   void note_motion(const Vec3& position, const Vec3& velocity) noexcept;
 
  private:
   class Section;
   class NearestSearch;
   class ContactSearch;
+  class ContactSetSearch;
+  class RaySearch;
 
   /// A point in the frame of an instance.
   struct LocalPoint {

@@ -37,6 +37,8 @@ Result<void> check(const SceneOptions& options) {
     return bad_argument("max_probes of a scene is out of range; give 1 to 1024");
   if (is_out_of(options.max_instances, SceneOptions::kMaxInstances))
     return bad_argument("max_instances of a scene is out of range; give 1 to 1048576");
+  if (is_out_of(options.max_contacts, SceneOptions::kMaxContacts))
+    return bad_argument("max_contacts of a scene is out of range; give 1 to 4096");
   if (!std::has_single_bit(options.max_page_bytes) ||
       options.max_page_bytes < storage::kMinPageBytes ||
       options.max_page_bytes > storage::kMaxPageBytes)
@@ -59,6 +61,8 @@ SceneState::Memory SceneState::cut(cache::ArenaLayout& layout, const SceneOption
     InstanceView::cut(layout, options.max_instances,
                       memory.views.empty() ? measured : memory.views[probe]);
   }
+  memory.contacts = layout.cut<octree::ContactTriangles>(options.max_probes);
+  memory.found = layout.cut<ClosestPoint>(std::uint64_t{options.max_probes} * options.max_contacts);
   return memory;
 }
 
@@ -153,6 +157,7 @@ SceneModel::Choices SceneState::choices(std::uint32_t layers) const noexcept {
   choices.locking = options_.locking;
   choices.query_terms = {false, wait_limit};
   choices.fetcher_terms = {true, wait_limit};
+  choices.contacts = memory_.contacts;
   return choices;
 }
 

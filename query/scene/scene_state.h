@@ -52,6 +52,10 @@ class SceneState {
   const SceneSections& sections() const noexcept { return *sections_; }
   /// The view of the probe with this number.
   InstanceView& view(std::uint32_t probe) const noexcept { return memory_.views[probe]; }
+  /// Memory of the probe with this number for the contacts of one instance.
+  std::span<ClosestPoint> found(std::uint32_t probe) const noexcept {
+    return memory_.found.subspan(std::size_t{probe} * options_.max_contacts, options_.max_contacts);
+  }
   /// The slots that may have instances.
   std::span<const InstanceSlot> slots() const noexcept {
     return memory_.slots.first(used_slots_.load(std::memory_order_acquire));
@@ -62,8 +66,10 @@ class SceneState {
   struct Memory {
     std::span<InstanceSlot> slots;
     std::span<cache::ReaderSlot> sections;
-    std::span<SceneSections::Counter> changes;  // one
-    std::span<InstanceView> views;              // one for each probe
+    std::span<SceneSections::Counter> changes;     // one
+    std::span<InstanceView> views;                 // one for each probe
+    std::span<octree::ContactTriangles> contacts;  // one for each probe
+    std::span<ClosestPoint> found;                 // max_contacts for each probe
   };
 
   explicit SceneState(const SceneOptions& options, const SceneSeams& seams)

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <thread>
@@ -36,6 +37,10 @@ void run_ticks(Scene& scene, SceneProbe& probe, const std::vector<InstanceId>& i
     const Vec3 tool{0.07 * (tick % 300), 0.4, 1.05};
     degraded += probe.closest_point(tool, kNow).status == Status::kDegraded;
     probe.contains({tool.x, 0.2, 0.3}, kNow);
+    std::array<SceneClosestPoint, 8> found;
+    probe.contacts(tool, 0.2, found, kNow);
+    probe.first_contact({tool, {tool.x + 0.1, 0.3, 0.9}, 0.05}, 0.001, kNow);
+    probe.first_hit({tool, {0.1, -0.2, -1}}, kNow);
     probe.motion(tool, {70, 0, 0});
   }
 }

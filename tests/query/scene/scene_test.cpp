@@ -54,54 +54,6 @@ TEST_F(SceneTest, OfOneStillInstanceAnswersAsItsModel) {
   }
 }
 
-TEST_F(SceneTest, OfOneStillInstanceIsTouchedAsItsModel) {
-  const Model model = fine_ball_.open();
-  Scene scene = make_scene();
-  add(scene, fine_ball_);
-  Probe alone = query::make_probe(model);
-  SceneProbe probe = make_probe(scene);
-  const std::vector<Vec3> points = random_queries(300, -2, 2);
-  std::size_t touched = 0;
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    const Sweep sweep{points[i - 1], points[i], i % 3 == 0 ? 0 : 0.05};
-    QueryOptions options;
-    if (i % 4 == 0) options.max_distance = 0.7;
-    const SceneFirstContact contact = probe.first_contact(sweep, i % 2 ? 0.5 : 0, options);
-    EXPECT_EQ(bits_of(contact), bits_of(alone.first_contact(sweep, options))) << i;
-    EXPECT_EQ(contact.instance != kNoInstance, contact.t <= 1);
-    touched += contact.t <= 1;
-  }
-  EXPECT_GT(touched, 50u);
-}
-
-// The ball of radius 1 comes to a tool of radius 0.5 that stands still, or moves beside it.
-TEST_F(SceneTest, MovingInstancesTouchTheTool) {
-  Scene scene = make_scene();
-  const InstanceId ball = add(scene, ball_, at(5));
-  SceneProbe probe = make_probe(scene);
-  const Sweep still{{0, 0, 0}, {0, 0, 0}, 0.5};
-  EXPECT_TRUE(probe.first_contact(still, 1).free);
-  ASSERT_TRUE(scene.set_pose(ball, at(5), {{-10, 0, 0}, {}}));
-  EXPECT_TRUE(probe.first_contact(still).free) << "with 0 seconds instances stand still";
-  const SceneFirstContact contact = probe.first_contact(still, 1);
-  EXPECT_EQ(contact.instance, ball);
-  EXPECT_NEAR(contact.t, 0.35, 0.01);
-  EXPECT_LE(contact.t_lower, contact.t);
-  EXPECT_GE(contact.t_upper, contact.t);
-  EXPECT_LE(contact.t_upper - contact.t_lower, 1e-9);
-  EXPECT_NEAR(contact.at.point.x, 0.5, 0.01);
-  EXPECT_LT(contact.at.normal.x, -0.99);
-  EXPECT_TRUE(probe.first_contact(still, 0.3).free);
-  EXPECT_TRUE(probe.first_contact({{0, 0, 0}, {-10, 0, 0}, 0.5}, 1).free) << "it flees as fast";
-  // A turn of more than a radian is too much.
-  ASSERT_TRUE(scene.set_pose(ball, at(1), {{}, {0, 0, 2}}));
-  const SceneFirstContact unknown = probe.first_contact(still, 1);
-  EXPECT_EQ(unknown.status, Status::kDegraded);
-  EXPECT_EQ(unknown.t_lower, 0);
-  EXPECT_FALSE(unknown.free);
-  EXPECT_EQ(probe.first_contact(still, -1).status, Status::kBadQuery);
-}
-
 TEST_F(SceneTest, RefusesBadQueriesAsAModelDoes) {
   Scene scene = make_scene();
   const InstanceId id = add(scene, ball_);
