@@ -21,6 +21,7 @@ set(planetree_headers
   pose.h
   probe.h
   scene.h
+  scene_shell.h
   stats.h
   trace.h
   types.h)

@@ -19,6 +19,7 @@
 #include "planetree/pose.h"
 #include "planetree/probe.h"
 #include "planetree/scene.h"
+#include "planetree/scene_shell.h"
 #include "planetree/stats.h"
 #include "planetree/trace.h"
 #include "planetree/types.h"

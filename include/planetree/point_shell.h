@@ -119,6 +119,9 @@ struct ShellContact {
 };
 
 class PointShellState;
+class SceneProbe;
+class SceneShellState;
+struct SceneShellContact;
 
 /// The points of a tool's surface, with a tree of spheres around them. Immutable, shared by
 /// threads. Takes about 100 bytes a point. It must outlive its states.
@@ -169,8 +172,29 @@ class PLANETREE_API PointShell {
                 const ShellOptions& options = {},
                 std::span<ShellContact> contacts = {}) const noexcept;
 
+  /// Returns the wrench of all instances of a scene on the tool, in the world's axes: the sum of
+  /// those of each instance, as the function above computes them. Instances whose boxes are too far
+  /// for contact are not asked.
+  ///
+  /// - The errors hold the rounding of the poses of tool and instances. What a state knows of an
+  ///   instance ages by the motion of the tool relative to it.
+  /// - Wrench::contacts and Wrench::undecided count a point once for each instance.
+  ///   ShellOptions::max_work is that of all instances together, but for one query of each that is
+  ///   near. The nearest box comes first.
+  /// - Without a near instance the wrench is 0, without error.
+  ///
+  /// probe     of the scene. With a pose that leaves the range of poses relative to an instance,
+  /// the
+  ///           errors are infinite.
+  /// state     of this shell.
+  /// contacts  as above, in the world frame, one instance after another.
+  Wrench wrench(SceneProbe& probe, SceneShellState& state, const Pose& pose,
+                const ShellOptions& options = {},
+                std::span<SceneShellContact> contacts = {}) const noexcept;
+
  private:
   friend class PointShellState;
+  friend class SceneShellState;
   explicit PointShell(std::unique_ptr<const query::SphereTree> tree) noexcept;
   std::unique_ptr<const query::SphereTree> tree_;
 };
@@ -197,8 +221,9 @@ class PLANETREE_API PointShellState {
 
  private:
   friend class PointShell;
-  explicit PointShellState(std::unique_ptr<query::ShellMemory> memory) noexcept;
+  PointShellState(std::unique_ptr<query::ShellMemory> memory, const ModelInfo& info) noexcept;
   std::unique_ptr<query::ShellMemory> memory_;
+  const ModelInfo* info_;
 };
 
 }  // namespace planetree

@@ -295,6 +295,7 @@ class PLANETREE_API SceneProbe {
   void motion(Vec3 position, Vec3 velocity) noexcept;
 
  private:
+  friend class PointShell;
   explicit SceneProbe(std::unique_ptr<query::SceneProbeState> state) noexcept;
   std::unique_ptr<query::SceneProbeState> state_;
 };

@@ -13,6 +13,7 @@
 #include "query/scene/nearest_search.h"
 #include "query/scene/ray_search.h"
 #include "query/scene/scene_model.h"
+#include "query/scene/shell_sum.h"
 #include "query/shell/vectors.h"
 
 namespace planetree::query {
@@ -133,6 +134,15 @@ SceneRayHit SceneProbeState::first_hit(const Ray& ray, const QueryOptions& optio
   if (!can_place(ray.origin) || !(view_.is_still() || RaySearch::can_turn(ray.direction)))
     return {};
   return RaySearch(*this, ray, options).run();
+}
+
+Wrench SceneProbeState::wrench(SceneShellMemory& memory, const Pose& pose,
+                               const ShellOptions& options,
+                               std::span<SceneShellContact> contacts) noexcept {
+  const auto tool = octree::RigidTransform::of(pose);
+  if (!tool || !is_valid(options)) return {};
+  const Section section(*this);
+  return ShellSum(*this, memory, pose, *tool, options, contacts).run();
 }
 
 void SceneProbeState::note_motion(const Vec3& position, const Vec3& velocity) noexcept {

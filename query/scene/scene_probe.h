@@ -7,10 +7,13 @@
 
 #include "cache/reader.h"
 #include "planetree/scene.h"
+#include "planetree/scene_shell.h"
 #include "query/scene/instance_view.h"
 #include "query/scene/scene_state.h"
 
 namespace planetree::query {
+
+class SceneShellMemory;
 
 /// The implementation of SceneProbe.
 class SceneProbeState {
@@ -31,6 +34,9 @@ class SceneProbeState {
   Found contacts(const Vec3& query, double radius, std::span<SceneClosestPoint> found,
                  const QueryOptions& options) noexcept;
   SceneRayHit first_hit(const Ray& ray, const QueryOptions& options) noexcept;
+  /// See PointShell::wrench. `memory` is of the shell.
+  Wrench wrench(SceneShellMemory& memory, const Pose& pose, const ShellOptions& options,
+                std::span<SceneShellContact> contacts) noexcept;
   void note_motion(const Vec3& position, const Vec3& velocity) noexcept;
 
  private:
@@ -39,6 +45,7 @@ class SceneProbeState {
   class ContactSearch;
   class ContactSetSearch;
   class RaySearch;
+  class ShellSum;
 
   /// A point in the frame of an instance.
   struct LocalPoint {

@@ -10,25 +10,14 @@
 #include "octree/geometry/rigid_transform.h"
 #include "octree/geometry/strict_math.h"
 #include "query/shell/shell_memory.h"
-#include "query/shell/shell_query.h"
+#include "query/shell/shell_wrench.h"
 #include "query/shell/sphere_tree.h"
 #include "query/shell/vectors.h"
-#include "query/shell/wrench_sum.h"
 
 namespace planetree {
 namespace {
 
 using octree::RigidTransform;
-
-bool is_number(double value) { return value >= 0 && std::isfinite(value); }
-
-bool is_valid(const ShellOptions& options) {
-  return is_number(options.stiffness) && is_number(options.margin) && options.max_depth >= 0 &&
-         RigidTransform::is_in_range(options.reference) &&
-         options.depth_rule <= DepthRule::kTwoSided &&
-         options.force_direction <= ForceDirection::kModelNormal &&
-         options.side_rule <= SideRule::kSurface && options.wait <= Wait::kNever;
-}
 
 Error bad_shell(const char* cause, std::size_t point) {
   return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
@@ -40,15 +29,24 @@ Error no_memory(const char* what) {
                     "no memory for %s; free some and try again", what);
 }
 
-ShellContact contact_of(const query::ShellHit& hit, const query::SphereTree& tree) {
-  return {tree.points()[hit.point].number,
-          hit.position,
-          hit.direction,
-          hit.depth,
-          hit.depth_lower,
-          hit.depth_upper,
-          hit.is_proven ? Status::kExact : Status::kDegraded};
-}
+// A model that a probe asks. Both have the floating-point mode that queries need.
+class ProbeSource final : public query::ShellSource {
+ public:
+  ProbeSource(Probe& probe, const ModelInfo& info) : probe_(probe), info_(info) {}
+
+  ClosestPoint closest_point(const Vec3& query, const QueryOptions& options) noexcept override {
+    return probe_.closest_point(query, options);
+  }
+  Containment contains(const Vec3& query, const QueryOptions& options) noexcept override {
+    return probe_.contains(query, options);
+  }
+  std::uint64_t work_spent() const noexcept override { return probe_.work_spent(); }
+  const ModelInfo& info() const noexcept override { return info_; }
+
+ private:
+  Probe& probe_;
+  const ModelInfo& info_;
+};
 
 }  // namespace
 
@@ -84,39 +82,27 @@ Wrench PointShell::wrench(Probe& probe, PointShellState& state, const Pose& pose
                           std::span<ShellContact> contacts) const noexcept {
   assert(&state.memory_->tree == tree_.get());
   const octree::FpEnvironmentGuard host;
-  Wrench wrench;
   const auto transform = RigidTransform::of(pose);
-  if (!transform || !is_valid(options)) return wrench;
-  query::ShellQuery query(probe, *state.memory_, *transform, options);
-  query.run();
-
-  // The sum does not depend on the order in which the points were found.
-  auto& hits = state.memory_->hits;
-  std::ranges::sort(
-      hits, {}, [this](const query::ShellHit& hit) { return tree_->points()[hit.point].number; });
-  query::WrenchSum sum(*tree_, *transform, options);
-  for (const query::ShellHit& hit : hits) sum.add(hit);
-  sum.finish(wrench);
-  const std::size_t count = std::min(hits.size(), contacts.size());
-  for (std::size_t i = 0; i < count; ++i) contacts[i] = contact_of(hits[i], *tree_);
-  wrench.queries = query.queries();
-  wrench.work = query.work();
-  wrench.listed = hits.size();
-  const bool is_finite = std::isfinite(wrench.force_error) && std::isfinite(wrench.torque_error);
-  wrench.status = wrench.undecided == 0 && is_finite ? Status::kExact : Status::kDegraded;
+  if (!transform || !query::is_valid(options)) return {};
+  query::ShellMemory& memory = *state.memory_;
+  ProbeSource source(probe, *state.info_);
+  const Wrench wrench = query::shell_wrench(source, memory, {*transform}, options);
+  const std::size_t count = std::min(memory.hits.size(), contacts.size());
+  for (std::size_t i = 0; i < count; ++i) contacts[i] = contact_of(memory.hits[i], *tree_);
   return wrench;
 }
 
 Result<PointShellState> PointShellState::create(const PointShell& shell, const Model& model) {
   try {
-    return PointShellState(std::make_unique<query::ShellMemory>(*shell.tree_, model.info()));
+    return PointShellState(std::make_unique<query::ShellMemory>(*shell.tree_), model.info());
   } catch (const std::bad_alloc&) {
     return no_memory("the state of a point shell");
   }
 }
 
-PointShellState::PointShellState(std::unique_ptr<query::ShellMemory> memory) noexcept
-    : memory_(std::move(memory)) {}
+PointShellState::PointShellState(std::unique_ptr<query::ShellMemory> memory,
+                                 const ModelInfo& info) noexcept
+    : memory_(std::move(memory)), info_(&info) {}
 PointShellState::PointShellState(PointShellState&&) noexcept = default;
 PointShellState& PointShellState::operator=(PointShellState&&) noexcept = default;
 PointShellState::~PointShellState() = default;

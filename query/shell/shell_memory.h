@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "planetree/model.h"
 #include "planetree/types.h"
 #include "query/shell/signed_bounds.h"
 #include "query/shell/sphere_tree.h"
@@ -40,14 +39,13 @@ struct ShellHit {
   double depth = 0, depth_lower = 0, depth_upper = 0;
 };
 
-/// The implementation of PointShellState. Queries allocate nothing, because every array has its
-/// greatest size from the start.
+/// What is known of the points of one shell in one model. Queries allocate nothing, because every
+/// array has its greatest size from the start.
 class ShellMemory {
  public:
   /// Throws std::bad_alloc.
-  ShellMemory(const SphereTree& shell, const ModelInfo& info)
+  explicit ShellMemory(const SphereTree& shell)
       : tree(shell),
-        model(info),
         nodes(shell.nodes().size()),
         points(shell.points().size()),
         bounds(shell.nodes().size()) {
@@ -72,7 +70,6 @@ class ShellMemory {
   }
 
   const SphereTree& tree;
-  const ModelInfo& model;
 
   std::vector<Known> nodes;   ///< from call to call
   std::vector<Known> points;  ///< from call to call

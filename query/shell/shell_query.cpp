@@ -29,6 +29,8 @@ SignRule sign_rule_of(const ShellOptions& options, SideRule side_rule, const Mod
                                                              : SignRule::kByPoint;
 }
 
+bool is_number(double value) { return value >= 0 && std::isfinite(value); }
+
 std::uint64_t limit_of(const ShellOptions& options) {
   if (options.max_work != QueryOptions::kNoLimit) return options.max_work;
   return options.wait == Wait::kNever ? ShellOptions::kRealTimeWork
@@ -37,19 +39,27 @@ std::uint64_t limit_of(const ShellOptions& options) {
 
 }  // namespace
 
-ShellQuery::ShellQuery(Probe& probe, ShellMemory& memory, const octree::RigidTransform& transform,
+bool is_valid(const ShellOptions& options) {
+  return is_number(options.stiffness) && is_number(options.margin) && options.max_depth >= 0 &&
+         octree::RigidTransform::is_in_range(options.reference) &&
+         options.depth_rule <= DepthRule::kTwoSided &&
+         options.force_direction <= ForceDirection::kModelNormal &&
+         options.side_rule <= SideRule::kSurface && options.wait <= Wait::kNever;
+}
+
+ShellQuery::ShellQuery(ShellSource& source, ShellMemory& memory, const ToolPlace& place,
                        const ShellOptions& options)
-    : probe_(probe),
+    : source_(source),
       memory_(memory),
       tree_(memory.tree),
-      transform_(transform),
+      transform_(place.transform),
       options_(options),
-      side_rule_(side_rule_of(options, memory.model)),
-      sign_rule_(sign_rule_of(options, side_rule_, memory.model)),
+      side_rule_(side_rule_of(options, source.info())),
+      sign_rule_(sign_rule_of(options, side_rule_, source.info())),
       is_limited_(limit_of(options) != std::numeric_limits<std::uint64_t>::max()),
       max_work_(limit_of(options)),
-      position_error_(transform.position_error(tree_.reach())) {
-  const double diagonal = upper_length(memory.model.box_upper - memory.model.box_lower);
+      position_error_(transform_.position_error(tree_.reach()) + place.position_error) {
+  const double diagonal = upper_length(source.info().box_upper - source.info().box_lower);
   const double deepest = options.max_depth - options.margin;
   free_ = options.margin + octree::kShellSlack * (options.margin + diagonal);
   full_ = -deepest - octree::kShellSlack * (std::fabs(deepest) + diagonal);
@@ -84,9 +94,9 @@ auto ShellQuery::limited(QueryOptions options, const Query& query) {
   options.wait = options_.wait;
   options.side_rule = side_rule_;
   if (is_limited_) options.max_work = static_cast<std::uint32_t>(std::min(left, share));
-  const std::uint64_t before = probe_.work_spent();
+  const std::uint64_t before = source_.work_spent();
   const auto answer = query(options);
-  const std::uint64_t spent = std::max<std::uint64_t>(1, probe_.work_spent() - before);
+  const std::uint64_t spent = std::max<std::uint64_t>(1, source_.work_spent() - before);
   work_ += is_limited_ ? std::min(spent, left) : spent;
   ++queries_;
   return answer;
@@ -94,11 +104,11 @@ auto ShellQuery::limited(QueryOptions options, const Query& query) {
 
 ClosestPoint ShellQuery::ask(const Vec3& at, const QueryOptions& options) {
   return limited(options,
-                 [&](const QueryOptions& limits) { return probe_.closest_point(at, limits); });
+                 [&](const QueryOptions& limits) { return source_.closest_point(at, limits); });
 }
 
 Side ShellQuery::ask_side(const Vec3& at) {
-  return limited({}, [&](const QueryOptions& limits) { return probe_.contains(at, limits).side; });
+  return limited({}, [&](const QueryOptions& limits) { return source_.contains(at, limits).side; });
 }
 
 void ShellQuery::examine(std::uint32_t index) {

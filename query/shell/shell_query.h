@@ -4,18 +4,39 @@
 
 #include "octree/geometry/rigid_transform.h"
 #include "planetree/point_shell.h"
-#include "planetree/probe.h"
 #include "query/shell/shell_memory.h"
 #include "query/shell/signed_bounds.h"
 #include "query/shell/sphere_tree.h"
 
 namespace planetree::query {
 
+/// A model, as a shell asks it. See the functions of Probe.
+class ShellSource {
+ public:
+  virtual ~ShellSource() = default;
+
+  virtual ClosestPoint closest_point(const Vec3& query, const QueryOptions& options) noexcept = 0;
+  virtual Containment contains(const Vec3& query, const QueryOptions& options) noexcept = 0;
+  virtual std::uint64_t work_spent() const noexcept = 0;
+  virtual const ModelInfo& info() const noexcept = 0;
+};
+
+/// The place of a tool in the frame of a model.
+struct ToolPlace {
+  octree::RigidTransform transform;
+  /// Bounds on errors besides those of the transform: of positions, model units, and of directions,
+  /// as a share of their length.
+  double position_error = 0, rotation_error = 0;
+};
+
+/// Whether the members are in range.
+bool is_valid(const ShellOptions& options);
+
 /// Finds the points of a shell that may be in contact, from coarse to fine.
 class ShellQuery {
  public:
   /// options  in range
-  ShellQuery(Probe& probe, ShellMemory& memory, const octree::RigidTransform& transform,
+  ShellQuery(ShellSource& source, ShellMemory& memory, const ToolPlace& place,
              const ShellOptions& options);
 
   /// Writes the points that may be in contact to ShellMemory::hits, in any order.
@@ -48,7 +69,7 @@ class ShellQuery {
            const Vec3& direction);
   double depth_at(double distance, double slack) const;
 
-  Probe& probe_;
+  ShellSource& source_;
   ShellMemory& memory_;
   const SphereTree& tree_;
   const octree::RigidTransform& transform_;

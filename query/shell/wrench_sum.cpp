@@ -18,12 +18,12 @@ double times(double a, double b) { return a == 0 || b == 0 ? 0 : a * b; }
 
 }  // namespace
 
-WrenchSum::WrenchSum(const SphereTree& tree, const octree::RigidTransform& transform,
-                     const ShellOptions& options)
+WrenchSum::WrenchSum(const SphereTree& tree, const ToolPlace& place, const ShellOptions& options)
     : tree_(tree),
-      transform_(transform),
+      transform_(place.transform),
       options_(options),
-      direction_error_(transform.rotation_error() + tree.normal_error() + octree::kNormRounding) {}
+      direction_error_(place.transform.rotation_error() + place.rotation_error +
+                       tree.normal_error() + octree::kNormRounding) {}
 
 void WrenchSum::add(const ShellHit& hit) {
   const double k = options_.stiffness;

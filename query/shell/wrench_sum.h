@@ -5,6 +5,7 @@
 #include "octree/geometry/rigid_transform.h"
 #include "planetree/point_shell.h"
 #include "query/shell/shell_memory.h"
+#include "query/shell/shell_query.h"
 
 namespace planetree::query {
 
@@ -24,8 +25,7 @@ namespace planetree::query {
 ///   the computed one errs by k (2 d + D).
 class WrenchSum {
  public:
-  WrenchSum(const SphereTree& tree, const octree::RigidTransform& transform,
-            const ShellOptions& options);
+  WrenchSum(const SphereTree& tree, const ToolPlace& place, const ShellOptions& options);
 
   void add(const ShellHit& hit);
   /// Writes force, torque and their errors, contacts and undecided.

@@ -6,14 +6,17 @@
 #include <atomic>
 #include <chrono>
 #include <thread>
+#include <utility>
 #include <vector>
 
+#include "planetree/scene_shell.h"
 #include "query/scene/scene_state.h"
 #include "tests/cache/allocation_count.h"
 #include "tests/query/call_trap.h"
 #include "tests/query/eventually.h"
 #include "tests/query/lock_count.h"
 #include "tests/query/scene/scene_fixture.h"
+#include "tests/query/shell/shells.h"
 
 namespace planetree::query {
 namespace {
@@ -27,8 +30,8 @@ struct Ticks {
 };
 
 // Moves all instances and asks, over and over.
-void run_ticks(Scene& scene, SceneProbe& probe, const std::vector<InstanceId>& ids, int ticks,
-               std::uint64_t& degraded) {
+void run_ticks(Scene& scene, SceneProbe& probe, const PointShell& shell, SceneShellState& state,
+               const std::vector<InstanceId>& ids, int ticks, std::uint64_t& degraded) {
   for (int tick = 0; tick < ticks; ++tick) {
     const double turn = 0.001 * (tick % 500);
     for (std::size_t i = 0; i < ids.size(); ++i)
@@ -41,6 +44,7 @@ void run_ticks(Scene& scene, SceneProbe& probe, const std::vector<InstanceId>& i
     probe.contacts(tool, 0.2, found, kNow);
     probe.first_contact({tool, {tool.x + 0.1, 0.3, 0.9}, 0.05}, 0.001, kNow);
     probe.first_hit({tool, {0.1, -0.2, -1}}, kNow);
+    (void)shell.wrench(probe, state, {{}, tool}, {.wait = Wait::kNever, .max_work = 500});
     probe.motion(tool, {70, 0, 0});
   }
 }
@@ -49,21 +53,23 @@ TEST_F(SceneCosts, AllocateLockAndCallNothing) {
   if (!cache::allocations_are_counted() || !locks_are_counted())
     GTEST_SKIP() << "a sanitizer counts instead";
   SceneOptions options = small_options();
-  options.memory_budget_bytes = std::uint64_t{3} << 20;
+  options.memory_budget_bytes = std::uint64_t{720} << 10;  // for some of the pages
   Scene scene = make_scene(options);
   std::vector<InstanceId> ids;
   for (int i = 0; i < 8; ++i) ids.push_back(add(scene, i % 2 ? ball_ : fine_ball_));
   SceneProbe probe = make_probe(scene);
+  const PointShell shell = std::move(*PointShell::create(ball_shell(100, 0.2)));
+  SceneShellState state = std::move(*SceneShellState::create(shell, 2));
   Ticks counts;
   bool is_trapped = false;
   std::uint64_t warm = 0;
   std::thread thread([&] {
-    run_ticks(scene, probe, ids, 200, warm);
+    run_ticks(scene, probe, shell, state, ids, 200, warm);
     counts.allocations = cache::allocation_count();
     counts.locks = lock_count();
     is_trapped = set_call_trap();
     counts.calls = trapped_calls();
-    run_ticks(scene, probe, ids, 3000, counts.degraded);
+    run_ticks(scene, probe, shell, state, ids, 3000, counts.degraded);
     counts.calls = trapped_calls() - counts.calls;
     counts.locks = lock_count() - counts.locks;
     counts.allocations = cache::allocation_count() - counts.allocations;
