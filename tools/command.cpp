@@ -19,6 +19,7 @@
 #include "tools/inspect.h"
 #include "tools/manual/help_text.h"
 #include "tools/query.h"
+#include "tools/scene.h"
 #include "tools/thickness.h"
 #include "tools/touch.h"
 #include "tools/trade.h"
@@ -51,6 +52,7 @@ CommandLine::CommandLine(Console& console)
   add_thickness(app, console, action);
   add_inspect(app, console, action);
   add_verify(app, console, action);
+  add_scene(app, console, action);
   add_touch(app, console, action);
   add_trade(app, console, action);
   add_tune(app, console, action);

@@ -8,6 +8,7 @@
 #include "planetree/types.h"
 #include "tools/answers/answer_writer.h"
 #include "tools/answers/painted_point.h"
+#include "tools/answers/placed_point.h"
 #include "tools/answers/point_cloud.h"
 #include "tools/answers/point_rows.h"
 #include "tools/answers/way_rows.h"
@@ -40,6 +41,9 @@ inline bool has_normals(const AnswerForm& form, const ClosestPoint&) {
   return state_of(form, kNormal) == FieldState::kKnown;
 }
 inline bool has_normals(const AnswerForm& form, const PaintedPoint& answer) {
+  return has_normals(form, static_cast<const ClosestPoint&>(answer));
+}
+inline bool has_normals(const AnswerForm& form, const PlacedPoint& answer) {
   return has_normals(form, static_cast<const ClosestPoint&>(answer));
 }
 template <class Answer>

@@ -8,6 +8,7 @@
 #include "tools/answers/answer_vertices.h"
 #include "tools/answers/array_fields.h"
 #include "tools/answers/painted_point.h"
+#include "tools/answers/placed_point.h"
 #include "tools/answers/point_rows.h"
 #include "tools/answers/way_rows.h"
 #include "tools/arrays/npy_array.h"
@@ -121,6 +122,7 @@ Result<bool> AnswerWriter::finish() {
 
 Result<bool> AnswerWriter::begin(const ClosestPoint&) { return begin_rows<Vec3, ClosestPoint>(); }
 Result<bool> AnswerWriter::begin(const PaintedPoint&) { return begin_rows<Vec3, PaintedPoint>(); }
+Result<bool> AnswerWriter::begin(const PlacedPoint&) { return begin_rows<Vec3, PlacedPoint>(); }
 Result<bool> AnswerWriter::begin(const Containment&) { return begin_rows<Vec3, Containment>(); }
 Result<bool> AnswerWriter::begin(const RayHit&) { return begin_rows<Ray, RayHit>(); }
 Result<bool> AnswerWriter::begin(const FirstContact&) { return begin_rows<Sweep, FirstContact>(); }
@@ -131,6 +133,10 @@ Result<bool> AnswerWriter::write(std::span<const Vec3> queries,
 }
 Result<bool> AnswerWriter::write(std::span<const Vec3> queries,
                                  std::span<const PaintedPoint> answers) {
+  return write_rows(queries, answers);
+}
+Result<bool> AnswerWriter::write(std::span<const Vec3> queries,
+                                 std::span<const PlacedPoint> answers) {
   return write_rows(queries, answers);
 }
 Result<bool> AnswerWriter::write(std::span<const Vec3> queries,

@@ -34,6 +34,7 @@ struct AnswerForm {
 };
 
 struct PaintedPoint;
+struct PlacedPoint;
 
 /// Writes answers in one form, one row per answer.
 class AnswerWriter {
@@ -46,12 +47,14 @@ class AnswerWriter {
   /// Writes the header of answers of this type. False and errors as AnswerOutput::write().
   Result<bool> begin(const ClosestPoint&);
   Result<bool> begin(const PaintedPoint&);
+  Result<bool> begin(const PlacedPoint&);
   Result<bool> begin(const Containment&);
   Result<bool> begin(const RayHit&);
   Result<bool> begin(const FirstContact&);
   /// Writes a row for each answer; the spans have equal lengths. False and errors as in begin().
   Result<bool> write(std::span<const Vec3> queries, std::span<const ClosestPoint> answers);
   Result<bool> write(std::span<const Vec3> queries, std::span<const PaintedPoint> answers);
+  Result<bool> write(std::span<const Vec3> queries, std::span<const PlacedPoint> answers);
   Result<bool> write(std::span<const Vec3> queries, std::span<const Containment> answers);
   Result<bool> write(std::span<const Ray> queries, std::span<const RayHit> answers);
   Result<bool> write(std::span<const Sweep> queries, std::span<const FirstContact> answers);

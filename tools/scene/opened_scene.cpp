@@ -1,0 +1,66 @@
+#include "tools/scene/opened_scene.h"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+#include "storage/file/page_file.h"
+
+namespace planetree::tools {
+
+Result<SceneOptions> options_for(const SceneDescription& description, std::uint64_t memory_bytes,
+                                 std::filesystem::path& failed_file) {
+  SceneOptions options;
+  options.memory_budget_bytes = memory_bytes;
+  options.max_probes = 1;
+  options.max_instances = static_cast<std::uint32_t>(description.instances.size());
+  options.max_page_bytes = 4096;
+  for (const ModelDescription& model : description.models) {
+    const auto file = storage::PageFile::open(model.file);
+    if (!file) {
+      failed_file = model.file;
+      return file.error();
+    }
+    const std::uint32_t bytes = std::max(file->header().page_bytes, file->header().max_raw_bytes);
+    options.max_page_bytes = std::max(options.max_page_bytes, std::bit_ceil(bytes));
+  }
+  return options;
+}
+
+std::optional<OpenedScene> OpenedScene::open(const SceneDescription& description,
+                                             const std::filesystem::path& file,
+                                             std::uint64_t memory_bytes, SceneFailure& failure) {
+  failure.file = file;
+  const auto options = options_for(description, memory_bytes, failure.file);
+  if (!options) {
+    failure.error = options.error();
+    return std::nullopt;
+  }
+  auto scene = Scene::create(*options);
+  if (!scene) {
+    failure.error = scene.error();
+    return std::nullopt;
+  }
+  OpenedScene opened{*std::move(scene), {}};
+  for (const InstanceDescription& instance : description.instances) {
+    const ModelDescription& model = description.models[instance.model];
+    failure.file = model.file;
+    const auto id = opened.scene.add(model.file, instance.pose, model.layers);
+    if (!id) {
+      failure.error = id.error();
+      return std::nullopt;
+    }
+    opened.ids.push_back(*id);
+    if (const auto posed = opened.scene.set_pose(*id, instance.pose, instance.twist); !posed) {
+      failure = {file, posed.error()};
+      return std::nullopt;
+    }
+  }
+  return opened;
+}
+
+std::size_t OpenedScene::index_of(InstanceId id) const {
+  return static_cast<std::size_t>(std::ranges::find(ids, id) - ids.begin());
+}
+
+}  // namespace planetree::tools

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "planetree/scene.h"
+#include "tools/scene/scene_description.h"
+
+namespace planetree::tools {
+
+/// What went wrong, and with which file.
+struct SceneFailure {
+  std::filesystem::path file;
+  Error error;
+};
+
+/// A scene that a scene file describes. The instances are in the order of the file.
+struct OpenedScene {
+  Scene scene;
+  std::vector<InstanceId> ids;
+
+  /// Opens all models and places all instances.
+  ///
+  /// memory_bytes  budget of the scene
+  /// failure       receives what went wrong if nothing is returned
+  static std::optional<OpenedScene> open(const SceneDescription& description,
+                                         const std::filesystem::path& file,
+                                         std::uint64_t memory_bytes, SceneFailure& failure);
+  /// The position of an instance in the file; ids.size() if it has none.
+  std::size_t index_of(InstanceId id) const;
+};
+
+/// Returns the options of a scene whose frames hold the pages of all models, for one probe.
+Result<SceneOptions> options_for(const SceneDescription& description, std::uint64_t memory_bytes,
+                                 std::filesystem::path& failed_file);
+
+}  // namespace planetree::tools
