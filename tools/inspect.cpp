@@ -9,20 +9,20 @@
 #include <string>
 
 #include "tools/check/file_parts.h"
-#include "tools/cli/open_model.h"
 #include "tools/cli/progress.h"
 #include "tools/cli/subcommand_options.h"
 #include "tools/report/explanation.h"
 #include "tools/report/file_survey.h"
 #include "tools/report/page_report.h"
 #include "tools/report/summary_report.h"
+#include "tools/slice/show_slice.h"
 
 namespace planetree::tools {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::uint64_t kSliceMemoryBytes = std::uint64_t{256} << 20;
+constexpr std::uint64_t kMaxLevel = 255;  // of the tree
 
 class Inspection {
  public:
@@ -169,47 +169,6 @@ int Inspection::show_nodes() {
   return console_.finish(print_issues(issues));
 }
 
-int show_slice(const InspectArguments& arguments, Console& console) {
-  const std::string file = arguments.file.string();
-  OpenOptions options;
-  options.memory_budget_bytes = kSliceMemoryBytes;
-  const auto model = open_model(arguments.file, options, console);
-  if (!model) return console.fail(file, model.error());
-  auto probe = Probe::create(*model);
-  if (!probe) return console.fail(file, probe.error());
-  Progress progress(arguments.quiet, arguments.json);
-  std::uint64_t drawn = 0;
-  const auto slice =
-      draw_slice(*model, *probe, *arguments.slice, [&](std::uint64_t done, std::uint64_t total) {
-        if (done == 0) progress.start("drawing", total, "pixels");
-        progress.add(done - drawn);
-        drawn = done;
-      });
-  progress.finish();
-  if (!slice) return console.fail(file, slice.error());
-  if (const auto written = slice->image.write(arguments.image, arguments.replace_image); !written)
-    return console.fail(arguments.image.string(), written.error());
-  const char axis = "xyz"[arguments.slice->axis];
-  if (arguments.json)
-    console.print(json_line({{"image", arguments.image.string()},
-                             {"width", slice->image.width()},
-                             {"height", slice->image.height()},
-                             {"axis", std::string(1, axis)},
-                             {"coordinate", slice->coordinate},
-                             {"pixel_length", slice->pixel_length},
-                             {"line_distance", slice->line_distance},
-                             {"least_distance", slice->least},
-                             {"greatest_distance", slice->greatest}}));
-  else
-    console.print(fmt::format(
-        "{}: {} = {:.6g}, {} by {} pixels of {:.3g}, an iso-line every {:.3g}, greatest distance "
-        "{:.6g}\n",
-        arguments.image.string(), axis, slice->coordinate, slice->image.width(),
-        slice->image.height(), slice->pixel_length, slice->line_distance, slice->greatest));
-  const auto error = pages_lost(model->stats());
-  return console.finish(error ? console.fail(file, *error) : kDone);
-}
-
 int show_why(const InspectArguments& arguments, Console& console) {
   const auto explanation = explain(arguments.file, *arguments.why);
   if (!explanation) return console.fail(arguments.file.string(), explanation.error());
@@ -228,17 +187,25 @@ std::string node_complaint(const std::string& text) {
   return fmt::format("'{}' is not an octcode; give 0x... or level:x:y:z", text);
 }
 
-std::string slice_complaint(const std::string& text) {
-  if (SlicePlane::parse(text)) return {};
-  return fmt::format(
-      "'{}' is not a plane; give x, y or z with a number or a percentage, such as z=1.5 or z=50%",
-      text);
+SliceArguments slice_of(const InspectArguments& arguments) {
+  SliceArguments slice = arguments.slice;
+  slice.file = arguments.file;
+  slice.replace_image = arguments.replace;
+  slice.json = arguments.json;
+  slice.quiet = arguments.quiet;
+  return slice;
+}
+
+BoundsArguments bounds_of(const InspectArguments& arguments) {
+  return {arguments.file,    arguments.bounds.output, arguments.bounds.level,
+          arguments.replace, arguments.json,          arguments.quiet};
 }
 
 }  // namespace
 
 int run_inspect(const InspectArguments& arguments, Console& console) {
-  if (arguments.slice) return show_slice(arguments, console);
+  if (arguments.slice.plane) return show_slice(slice_of(arguments), console);
+  if (!arguments.bounds.output.empty()) return show_bounds(bounds_of(arguments), console);
   if (arguments.why) return show_why(arguments, console);
   const std::string file = arguments.file.string();
   auto parts = FileParts::open(arguments.file);
@@ -276,11 +243,7 @@ void add_inspect(CLI::App& app, Console& console, std::function<int()>& action) 
   const auto page =
       subcommand.count("--page", options->page, std::numeric_limits<std::uint32_t>::max(),
                        "Show instead one page, numbered from 0, with the names of format-spec");
-  const auto image = subcommand.path("--image", "OUT.png", arguments.image, "PNG file to write");
-  const auto slice = subcommand.text(
-      "--slice", "AXIS=VALUE", slice_complaint,
-      [&arguments](const std::string& text) { arguments.slice = SlicePlane::parse(text); },
-      "Draw instead the distance over a plane, such as z=1.5 (model units) or z=50% (of the box)");
+  const SliceOptions slices = add_slice_options(subcommand, arguments.slice);
   const auto why = subcommand.text(
       "--why", "X,Y,Z", why_complaint,
       [&arguments](const std::string& text) { arguments.why = parse_point(text); },
@@ -288,19 +251,27 @@ void add_inspect(CLI::App& app, Console& console, std::function<int()>& action) 
       "crossings, nearest triangle, work (model units)");
   subcommand.exclude(why, node);
   subcommand.exclude(why, page);
-  subcommand.exclude(why, slice);
-  subcommand.need(slice, image);
-  subcommand.exclude(slice, node);
-  subcommand.exclude(slice, page);
-  subcommand.need(image, slice);
   subcommand.exclude(page, node);
-  subcommand.need(
-      subcommand.flag("--force", arguments.replace_image, "Replace the image if it exists"), image);
+  const auto bounds =
+      subcommand.count_and_path("--export-bounds", "LEVEL OUT.ply", arguments.bounds.level,
+                                kMaxLevel, arguments.bounds.output, bounds_complaint,
+                                "Write instead the bounding planes of a level of the tree as a "
+                                "mesh: discs as polygons in both "
+                                "planes of each slab. The root has level 0. - is standard output");
+  for (const auto other : {node, page, why, bounds}) subcommand.exclude(slices.slice, other);
+  for (const auto other : {node, page, why}) subcommand.exclude(bounds, other);
+  const auto force = subcommand.flag("--force", arguments.replace,
+                                     "Replace the file of --image or --export-bounds if it exists");
   subcommand.flag("--json", arguments.json,
                   "Report as one JSON object; progress as JSON lines, on standard error");
   subcommand.flag("--quiet", arguments.quiet, "Show no progress");
-  subcommand.on_given([options, page, &console, &action] {
-    if (SubcommandOptions::given(page)) options->arguments.page = options->page;
+  subcommand.on_given([options, page, slices, bounds, force, &console, &action] {
+    const auto given = [](SubcommandOptions::Option one) { return SubcommandOptions::given(one); };
+    if (given(force) && !given(slices.image) && !given(bounds))
+      return std::string("--force requires --image or --export-bounds");
+    if (std::string complaint = slices.complaint(options->arguments.slice); !complaint.empty())
+      return complaint;
+    if (given(page)) options->arguments.page = options->page;
     action = [options, &console] { return run_inspect(options->arguments, console); };
     return std::string();
   });

@@ -8,7 +8,8 @@
 #include "planetree/types.h"
 #include "tools/cli/file_text.h"
 #include "tools/cli/subcommand.h"
-#include "tools/report/slice_image.h"
+#include "tools/report/show_bounds.h"
+#include "tools/slice/slice_arguments.h"
 
 namespace CLI {
 class App;
@@ -23,16 +24,16 @@ struct InspectArguments {
   bool pages = false;
   std::optional<OctcodeQuery> node;
   std::optional<std::uint64_t> page;
-  std::optional<SlicePlane> slice;
+  SliceArguments slice;    ///< if it has a plane; `file`, `json` and `quiet` are those of this
+  BoundsArguments bounds;  ///< likewise, if it has an output
   std::optional<Vec3> why;
-  std::filesystem::path image;
-  bool replace_image = false;
+  bool replace = false;  ///< the picture or the bounds
   bool json = false;
   bool quiet = false;
 };
 
-/// Reports the contents of a file, also of a damaged one. Writes nothing but the image. Returns the
-/// exit status, 1 if the file has an issue or pages could not be read.
+/// Reports the contents of a file, also of a damaged one. Writes nothing but a picture or bounds.
+/// Returns the exit status, 1 if the file has an issue or pages could not be read.
 int run_inspect(const InspectArguments& arguments, Console& console);
 
 /// Adds the subcommand `inspect` to the command line. If it is given, parsing sets `action` to a

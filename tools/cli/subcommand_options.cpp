@@ -75,6 +75,24 @@ SubcommandOptions::Option SubcommandOptions::count(const std::string& name, std:
   return text(name, "N", complaint, take, help);
 }
 
+SubcommandOptions::Option SubcommandOptions::count_and_path(
+    const std::string& name, const char* type, std::uint64_t& value, std::uint64_t most,
+    std::filesystem::path& path, std::function<std::string(const std::string&)> complaint,
+    const std::string& help) {
+  const auto take = [&value, &path](const std::vector<std::string>& given) {
+    value = *parse_count(given[0]);
+    path = given[1];
+  };
+  const auto check_count = [most](std::string& given) { return count_complaint(given, most); };
+  const auto check_path = [complaint](std::string& given) { return complaint(given); };
+  return subcommand_.add_option_function<std::vector<std::string>>(name, take, help)
+      ->type_name(type)
+      ->type_size(2)
+      ->expected(1)
+      ->check(CLI::Validator(check_count, "", "").application_index(0))
+      ->check(CLI::Validator(check_path, "", kPathCheck).application_index(1));
+}
+
 SubcommandOptions::Option SubcommandOptions::length(const std::string& name, double& value,
                                                     bool infinite, const std::string& help) {
   const auto complaint = [infinite](const std::string& given) {

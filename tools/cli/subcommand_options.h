@@ -43,6 +43,11 @@ class SubcommandOptions {
   /// A whole number such as 5000 or 20K, at most `most`.
   Option count(const std::string& name, std::uint64_t& value, std::uint64_t most,
                const std::string& help);
+  /// Two words: a whole number, at most `most`, and a path that `complaint` checks.
+  Option count_and_path(const std::string& name, const char* type, std::uint64_t& value,
+                        std::uint64_t most, std::filesystem::path& path,
+                        std::function<std::string(const std::string&)> complaint,
+                        const std::string& help);
   /// A length >= 0 in model units; it may be infinite if `infinite`.
   Option length(const std::string& name, double& value, bool infinite, const std::string& help);
   /// One of `words`, which is passed to `take`.

@@ -157,8 +157,8 @@ TEST_F(Command, InspectDrawsASlice) {
   const Outcome result = run(draw);
   ASSERT_EQ(result.status, 0) << result.errors;
   const Json report = Json::parse(result.output);
-  EXPECT_EQ(report["width"], 800);
-  EXPECT_EQ(report["height"], 122);
+  EXPECT_EQ(report["raster"]["width"], 800);
+  EXPECT_EQ(report["raster"]["height"], 122);
   EXPECT_EQ(report["coordinate"], 0.25);
   EXPECT_EQ(storage::read_bytes("slice.png")[1], std::byte{'P'});
   EXPECT_EQ(run(draw).status, 2);

@@ -16,7 +16,6 @@
 #include "tools/cli/file_digest.h"
 #include "tools/cli/file_text.h"
 #include "tools/cli/open_model.h"
-#include "tools/report/slice_image.h"
 
 namespace planetree::tools {
 namespace {
@@ -39,39 +38,6 @@ TEST(Octcode, RefusesMalformedOctcodes) {
   for (const char* text : {"", "0x", "0xg", "0x11111111111111111", "1:2:3", "1:2:3:", "1:2:3:4:5",
                            "20:0:0:0", "-1:0:0:0", "1:2:3:4+3", "1:2:3:4+", "a:b:c:d", "1;2;3;4"})
     EXPECT_FALSE(OctcodeQuery::parse(text)) << text;
-}
-
-TEST(SlicePlane, ReadsNumbersAndShares) {
-  ModelInfo info;
-  info.core_lower = {-1, -2, -4};
-  info.core_upper = {1, 2, 0};
-  EXPECT_EQ(SlicePlane::parse("z=50%")->coordinate(info), -2);
-  EXPECT_EQ(SlicePlane::parse("Y=0%")->coordinate(info), -2);
-  EXPECT_EQ(SlicePlane::parse("x=-1.5e1")->coordinate(info), -15);
-  for (const char* text : {"", "z", "z=", "w=1", "z=1x", "z=%", "z=nan", "z=1e999", "zz=1"})
-    EXPECT_FALSE(SlicePlane::parse(text)) << text;
-}
-
-// A slice through a flat square: the surface is a dark line in the middle, and the bands are darker
-// the farther they are from it.
-TEST(SliceImage, ShowsTheSurface) {
-  storage::TemporaryDirectory folder;
-  std::ofstream(folder / "mesh.obj") << "v 0 0 0\nv 8 0 0\nv 8 8 0\nv 0 8 0\nf 1 2 3 4\n";
-  build_sample(folder / "mesh.obj", folder / "tree.ptree");
-  const auto model = Model::open(folder / "tree.ptree");
-  ASSERT_TRUE(model);
-  auto probe = Probe::create(*model);
-  ASSERT_TRUE(probe);
-  const auto slice = draw_slice(*model, *probe, *SlicePlane::parse("y=50%"), {});
-  ASSERT_TRUE(slice);
-  const PngImage& image = slice->image;
-  EXPECT_EQ(image.width(), 800u);
-  EXPECT_LT(image.height(), 200u);
-  const std::uint32_t middle = image.height() / 2;
-  EXPECT_LT(image.at(400, middle).red, 40);
-  EXPECT_GT(image.at(400, middle - 5).red, 200);
-  EXPECT_LT(image.at(2, middle).red, 200);
-  EXPECT_LT(slice->least, slice->pixel_length);
 }
 
 TEST(FileDigest, IsSha256) {

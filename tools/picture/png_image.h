@@ -1,16 +1,20 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <filesystem>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "planetree/error.h"
+#include "tools/picture/rgb.h"
 
 namespace planetree::tools {
 
-/// An sRGB colour, 8 bits a channel.
-struct Rgb {
-  std::uint8_t red = 0, green = 0, blue = 0;
+/// A tEXt chunk of a PNG file. The key has 1 to 79 Latin-1 characters; the value has no NUL.
+struct PngText {
+  std::string key;
+  std::string value;
 };
 
 /// An opaque picture. Row 0 is the top row.
@@ -26,11 +30,10 @@ class PngImage {
   Rgb& at(std::uint32_t column, std::uint32_t row);
   Rgb at(std::uint32_t column, std::uint32_t row) const;
 
-  /// Writes the picture as a PNG file; "-" is standard output. The file gets its name only when it
-  /// is complete. On failure the destination is unchanged.
+  /// The bytes of a PNG file with the texts before the pixels.
   ///
-  /// errors  as OutputFile; kNoMemory
-  Result<void> write(const std::filesystem::path& path, bool may_replace) const;
+  /// errors  kNoMemory
+  Result<std::vector<std::byte>> encode(std::span<const PngText> texts) const;
 
  private:
   std::uint32_t width_;
