@@ -124,10 +124,10 @@ std::string compare_page(const CompareRecord& record, const std::string& command
   page.title = record.other;
   page.body = facts_html(facts(record)) + paragraph_html(counts_text(record) + ".");
   if (deviations.measured() > 0)
-    page.body += section_html(
-        "Distribution",
-        histogram_html(histogram_figure(record), ColourScale::diverging(record.reach)) +
-            percentile_table(deviations) + place_table(deviations));
+    page.body += section_html("Distribution",
+                              histogram_html(histogram_figure(record),
+                                             ColourScale::diverging(record.reach), page.figures) +
+                                  percentile_table(deviations) + place_table(deviations));
   page.body += hausdorff_html(record);
   page.body += section_html("Command", command_html("To make this page again", command));
   return page_html(page);

@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "tools/html/html_text.h"
+#include "tools/html/plot_figure.h"
 
 namespace planetree::tools {
 namespace {
@@ -44,31 +45,41 @@ void add_shade(const HeatStrip& strip, int shade, std::string& text) {
                         static_cast<double>(shade) / kShades, path);
 }
 
+/// The area of each column where a pointer is on it.
+std::string column_areas(const HeatStrip& strip) {
+  const double width =
+      (kWidth - kLeft - kRight) * strip.x.place(strip.x_end) / static_cast<double>(strip.columns);
+  std::string text;
+  for (std::size_t i = 0; i < strip.keys.size(); ++i)
+    text += fmt::format(
+        "<g class=\"point\" data-key=\"{}\"><rect class=\"shape hit column\" x=\"{:.1f}\" "
+        "y=\"{:g}\" width=\"{:.1f}\" height=\"{:g}\"/></g>\n",
+        html_text(strip.keys[i]), kLeft + width * static_cast<double>(i), kTop, width,
+        kHeight - kTop - kBottom);
+  return text;
+}
+
 }  // namespace
 
 std::string strip_html(const HeatStrip& strip) {
   assert(strip.values.size() == strip.columns * strip.rows);
-  std::string text = fmt::format(
-      "<figure>\n<figcaption>{1}</figcaption>\n<ul class=\"legend\"><li>{2}</li></ul>\n"
-      "<svg class=\"plot\" id=\"{0}\" viewBox=\"0 0 {3:g} {4:g}\" role=\"img\" "
-      "aria-labelledby=\"{0}-title {0}-desc\"><title id=\"{0}-title\">{1}</title>"
-      "<desc id=\"{0}-desc\">{5}</desc>\n"
-      "<rect class=\"lane\" x=\"{6:g}\" y=\"{7:g}\" width=\"{8:g}\" height=\"{9:g}\"/>\n",
-      strip.id, html_text(strip.title), html_text(strip.legend), kWidth, kHeight,
-      html_text(strip.description), kLeft, kTop, kWidth - kLeft - kRight, kHeight - kTop - kBottom);
+  assert(strip.keys.empty() || strip.keys.size() == strip.columns);
+  std::string text = svg_begin({strip.id, strip.title, strip.description, kWidth, kHeight});
+  text +=
+      fmt::format("<rect class=\"lane\" x=\"{:g}\" y=\"{:g}\" width=\"{:g}\" height=\"{:g}\"/>\n",
+                  kLeft, kTop, kWidth - kLeft - kRight, kHeight - kTop - kBottom);
   for (int shade = 1; shade <= kShades; ++shade) add_shade(strip, shade, text);
-  const std::size_t ticks = strip.x.ticks().size();
-  for (std::size_t i = 0; i < ticks; ++i)
+  text += column_areas(strip);
+  for (std::size_t i = 0; i < strip.x.ticks().size(); ++i)
     text += fmt::format(
-        "<text class=\"tick{}\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>\n",
-        ticks > 5 && i % 2 == 1 ? " extra" : "",
-        kLeft + (kWidth - kLeft - kRight) * strip.x.ticks()[i].place, kHeight - kBottom + 16,
-        html_text(strip.x.ticks()[i].text));
+        "<text class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>\n",
+        tick_class(strip.x, i), kLeft + (kWidth - kLeft - kRight) * strip.x.ticks()[i].place,
+        kHeight - kBottom + 16, html_text(strip.x.ticks()[i].text));
   text += fmt::format(
       "<text class=\"title\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>\n"
-      "<text class=\"title\" x=\"4\" y=\"14\">{}</text>\n</svg>\n</figure>\n",
+      "<text class=\"title\" x=\"4\" y=\"14\">{}</text>\n</svg>\n",
       kWidth / 2, kHeight - 8, html_text(strip.x.title()), html_text(strip.y_title));
-  return text;
+  return figure_html(strip.title, legend_item(strip.legend), text);
 }
 
 }  // namespace planetree::tools

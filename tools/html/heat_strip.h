@@ -20,6 +20,8 @@ struct HeatStrip {
   std::size_t columns = 0, rows = 0;
   std::vector<float> values;  ///< 0 to 1, row by row, the lowest row first
   std::string legend;         ///< what 0 and 1 mean
+  /// By column: names the figures to show for it, see HtmlPage::figures. Empty: there are none.
+  std::vector<std::string> keys;
 };
 
 /// The strip as HTML: a figure with its title, its legend and a drawing that scales with the page.

@@ -68,12 +68,13 @@ std::string row_html(const HtmlRow& row, const std::vector<HtmlColumn>& columns)
 }  // namespace
 
 std::string table_html(const HtmlTable& table) {
+  constexpr std::size_t kMaxRowsInFull = 24;
   std::string html =
       fmt::format(R"(<p class="caption">{0}</p>)"
                   "\n"
-                  R"(<div class="scroll" tabindex="0" role="region" aria-label="{0}"><table>)"
+                  R"(<div class="scroll{1}" tabindex="0" role="region" aria-label="{0}"><table>)"
                   "\n",
-                  html_text(table.caption));
+                  html_text(table.caption), table.rows.size() > kMaxRowsInFull ? " tall" : "");
   html += heading(table) + "<tbody>\n";
   for (const HtmlRow& row : table.rows) html += row_html(row, table.columns);
   return html + "</tbody></table></div>\n";

@@ -30,7 +30,8 @@ struct HtmlTable {
   std::vector<HtmlRow> rows;
 };
 
-/// The table as HTML, in a box of its own that scrolls if it is wider than the page.
+/// The table as HTML, in a box of its own that scrolls if it is wider than the page or has many
+/// rows.
 [[nodiscard]] std::string table_html(const HtmlTable& table);
 
 }  // namespace planetree::tools

@@ -18,6 +18,14 @@ const char* const kPageScript = R"js('use strict';
     const box = point.querySelector('.shape').getBoundingClientRect();
     return {x: box.left + box.width / 2, y: box.top + box.height / 2};
   };
+  // Of a pointer from the area of a point, if it has one, or from the middle of its shape.
+  const distance = (point, {clientX: x, clientY: y}) => {
+    const hit = point.querySelector('.hit');
+    if (!hit) return Math.hypot(middle(point).x - x, middle(point).y - y);
+    const box = hit.getBoundingClientRect();
+    return Math.hypot(Math.max(box.left - x, 0, x - box.right),
+                      Math.max(box.top - y, 0, y - box.bottom));
+  };
 
   const fill = (tip, key) => {
     const list = document.createElement('dl');
@@ -61,9 +69,8 @@ const char* const kPageScript = R"js('use strict';
     const nearest = (event) => {
       let best = null, least = reach;
       for (const point of points) {
-        const at = middle(point);
-        const distance = Math.hypot(at.x - event.clientX, at.y - event.clientY);
-        if (distance <= least) [best, least] = [point, distance];
+        const away = distance(point, event);
+        if (away <= least) [best, least] = [point, away];
       }
       return best;
     };

@@ -60,6 +60,7 @@ svg text { font: 11px system-ui, -apple-system, "Segoe UI", "Noto Sans", "DejaVu
 .lane { fill: var(--band); }
 .line { fill: none; stroke: currentColor; stroke-width: 1.4; stroke-opacity: 0.6; }
 .cell { fill: currentColor; }
+.dashed { stroke-dasharray: 4 3; }
 .steps { fill: none; stroke: var(--quiet); stroke-width: 1.3; stroke-opacity: 0.55; }
 .point, .line, .cell { color: var(--c0); }
 .point.c1, .line.c1 { color: var(--c1); }
@@ -70,9 +71,12 @@ svg text { font: 11px system-ui, -apple-system, "Segoe UI", "Noto Sans", "DejaVu
 .point.note { color: var(--quiet); }
 .point.muted { color: var(--muted); }
 .shape { fill: currentColor; stroke: var(--page); stroke-width: 1.2; }
+.point .column { stroke: none; }
+.point .hit { fill: none; }
 .hollow .shape { fill: var(--page); stroke: currentColor; stroke-width: 1.8; }
 .stem { stroke: currentColor; stroke-width: 1.6; stroke-opacity: 0.55; fill: none; }
 .point.lit .shape { stroke: var(--text); stroke-width: 2.4; }
+.point.lit .column { stroke: var(--text); stroke-width: 1.4; }
 .tip {
   position: absolute; display: none; z-index: 2; width: max-content; max-width: 100%;
   padding: 9px 12px; background: var(--raised); color: var(--text); pointer-events: none;
@@ -86,6 +90,8 @@ svg text { font: 11px system-ui, -apple-system, "Segoe UI", "Noto Sans", "DejaVu
 .tip dt { color: var(--quiet); }
 .tip dd { margin: 0; text-align: right; overflow-wrap: anywhere; font-variant-numeric: tabular-nums; }
 .scroll { overflow-x: auto; border-radius: 4px; }
+.tall { max-height: 25em; width: fit-content; max-width: 100%; overflow-y: auto; border-bottom: 1px solid var(--line); }
+.tall thead { position: sticky; top: 0; z-index: 1; background: var(--page); }
 .scroll:focus-visible, .command:focus-visible { outline: 2px solid var(--c0); outline-offset: 2px; }
 table { border-collapse: collapse; font-size: 13.5px; font-variant-numeric: tabular-nums; }
 .caption { max-width: none; color: var(--quiet); font-size: 13.5px; margin: 14px 0 6px; }
@@ -126,6 +132,7 @@ code { font: 12.5px ui-monospace, "SF Mono", "DejaVu Sans Mono", monospace; }
 }
 @media print {
   .scroll { overflow: visible; }
+  .tall { max-height: none; }
   section { break-inside: avoid; }
 }
 )css";

@@ -83,7 +83,9 @@ PlotAxis PlotAxis::logarithmic(std::string title, std::span<const double> values
     }
   }
   if (lower == 0) lower = upper = least;
-  const std::vector<double> ticks = logarithmic_ticks(lower, upper);
+  std::vector<double> ticks = logarithmic_ticks(lower, upper);
+  // What is below has a lane of its own.
+  if (axis.lane_end_ > 0) std::erase_if(ticks, [&](double tick) { return axis.is_in_lane(tick); });
   axis.lower_ = std::log10(ticks.front());
   axis.upper_ = std::log10(ticks.back());
   if (axis.lane_end_ > 0) axis.ticks_.push_back({axis.place(0), "< " + text(least)});
@@ -104,6 +106,41 @@ PlotAxis PlotAxis::linear(std::string title, double most, TickText text) {
   const int ticks = static_cast<int>(std::ceil(span / step * (1 - kSlack)));
   axis.upper_ = ticks * step;
   for (int tick = 0; tick <= ticks; ++tick) axis.add_tick(tick * step, text(tick * step));
+  return axis;
+}
+
+PlotAxis PlotAxis::between(std::string title, double lower, double upper, TickText text) {
+  constexpr double kMaxTicksBetween = 7;
+  PlotAxis axis;
+  axis.title_ = std::move(title);
+  axis.lower_ = lower;
+  axis.upper_ = upper;
+  double step = std::pow(10.0, std::floor(std::log10((upper - lower) / kMaxTicksBetween)));
+  for (const double factor : {2.0, 2.5, 2.0, 2.0}) {
+    if (std::floor((upper - lower) / step) + 1 <= kMaxTicksBetween) break;
+    step *= factor;
+  }
+  const double slack = kSlack * step;
+  for (double n = std::ceil((lower - slack) / step); n * step <= upper + slack; ++n)
+    axis.add_tick(n * step, text(n * step));
+  return axis;
+}
+
+PlotAxis PlotAxis::quantiles(std::string title, double most) {
+  constexpr int kMaxNines = 5;
+  PlotAxis axis;
+  axis.title_ = std::move(title);
+  axis.is_logarithmic_ = true;
+  axis.upper_ = std::log10(std::max(most, 10.0));
+  const int nines = static_cast<int>(axis.upper_ + kSlack);
+  const int step = (nines + kMaxNines - 1) / kMaxNines;
+  axis.add_tick(1, "min");
+  if (nines < kMaxNines) axis.add_tick(2, "50 %");
+  for (int power = step; power <= nines; power += step) {
+    std::string text(power > 2 ? static_cast<std::size_t>(power) - 2 : 0, '9');
+    axis.add_tick(std::pow(10.0, power),
+                  power == 1 ? "90 %" : "99" + (power > 2 ? "." + text : "") + " %");
+  }
   return axis;
 }
 

@@ -31,6 +31,15 @@ class PlotAxis {
   ///
   /// most  finite and >= 0
   static PlotAxis linear(std::string title, double most, TickText text);
+  /// From one value to another, with ticks at round values between them.
+  ///
+  /// lower, upper  finite, lower < upper
+  static PlotAxis between(std::string title, double lower, double upper, TickText text);
+  /// Of quantiles, with equal room for each nine: value n is the quantile that one in n values
+  /// exceeds, so that 1 is the least, 2 the median and 100 the 99 % quantile.
+  ///
+  /// most  number of measured values, 1 or more
+  static PlotAxis quantiles(std::string title, double most);
   /// From 0 to 1, with ticks in percent.
   static PlotAxis percent(std::string title);
   /// Ticks at the values 0, 1, 2 and so on. There is at least one.

@@ -7,14 +7,11 @@
 #include <numeric>
 
 #include "tools/html/html_text.h"
+#include "tools/html/plot_figure.h"
 #include "tools/html/plot_layout.h"
 
 namespace planetree::tools {
 namespace {
-
-/// More ticks than this are too many for the larger text of narrow pages: every other loses its
-/// text there.
-constexpr std::size_t kMaxNarrowTicks = 5;
 
 /// Appends the parts of a plot's drawing.
 class Drawing {
@@ -22,12 +19,7 @@ class Drawing {
   explicit Drawing(const SvgPlot& plot) : plot_(plot), layout_(lay_out(plot)) {}
 
   std::string html() {
-    add(R"(<svg class="plot" id="{0}" viewBox="0 0 {1:g} {2:g}" role="img" tabindex="0" )"
-        R"(aria-labelledby="{0}-title {0}-desc"><title id="{0}-title">{3}</title>)"
-        R"(<desc id="{0}-desc">{4}</desc>)"
-        "\n",
-        plot_.id, layout_.width, layout_.height, html_text(plot_.title),
-        html_text(plot_.description));
+    text_ = svg_begin({plot_.id, plot_.title, plot_.description, layout_.width, layout_.height});
     add_lanes();
     add_x_axis();
     add_upper_x_axis();
@@ -63,12 +55,6 @@ class Drawing {
     add(R"(<rect class="lane" x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}"/>)"
         "\n",
         lane.left, lane.top, lane.right - lane.left, lane.bottom - lane.top);
-  }
-
-  /// The class of the text of tick `i`. The lane keeps its text in narrow pages, and what is beside
-  /// it makes way.
-  static const char* tick_class(const PlotAxis& axis, std::size_t i) {
-    return axis.ticks().size() > kMaxNarrowTicks && i % 2 == 1 ? "tick extra" : "tick";
   }
 
   void add_x_axis() {
@@ -184,31 +170,21 @@ class Drawing {
   std::string text_;
 };
 
-std::string legend_item(const std::string& classes, PlotShape shape, const std::string& name) {
-  return fmt::format(
-      R"(<li><svg class="key" viewBox="-8 -8 16 16" aria-hidden="true"><g class="point {}">)"
-      R"(<path class="shape" d="{}"/></g></svg>{}</li>)",
-      classes, path_of(shape), html_text(name));
-}
-
 std::string legend(const SvgPlot& plot) {
-  std::string html = R"(<ul class="legend">)";
+  std::string items;
   for (std::size_t i = 0; i < plot.series.size(); ++i)
-    html += legend_item(fmt::format("c{}", i % kPlotColours), plot.series[i].shape,
-                        plot.series[i].name);
-  if (!plot.muted_note.empty()) html += legend_item("muted", PlotShape::kCircle, plot.muted_note);
+    items += legend_item(fmt::format("c{}", i % kPlotColours), plot.series[i].shape,
+                         plot.series[i].name);
+  if (!plot.muted_note.empty()) items += legend_item("muted", PlotShape::kCircle, plot.muted_note);
   if (!plot.hollow_note.empty())
-    html += legend_item("hollow note", PlotShape::kCircle, plot.hollow_note);
-  return html + "</ul>\n";
+    items += legend_item("hollow note", PlotShape::kCircle, plot.hollow_note);
+  return items;
 }
 
 }  // namespace
 
 std::string plot_html(const SvgPlot& plot) {
-  return fmt::format("<figure>\n<figcaption>{}</figcaption>\n", html_text(plot.title)) +
-         legend(plot) + R"(<div class="canvas">)" + Drawing(plot).html() +
-         R"(<div class="tip" role="status"></div></div>)"
-         "\n</figure>\n";
+  return figure_html(plot.title, legend(plot), Drawing(plot).html());
 }
 
 }  // namespace planetree::tools

@@ -87,10 +87,11 @@ std::string thickness_page(const ThicknessRecord& record, const std::string& com
   page.title = record.file;
   page.body = facts_html(facts(record)) + paragraph_html(counts_text(record) + ".");
   if (record.thinnest.has_contact)
-    page.body += section_html("Distribution",
-                              histogram_html(histogram_figure(record), thickness_colours(record)) +
-                                  percentile_table(record)) +
-                 thinnest_html(record.thinnest);
+    page.body +=
+        section_html("Distribution", histogram_html(histogram_figure(record),
+                                                    thickness_colours(record), page.figures) +
+                                         percentile_table(record)) +
+        thinnest_html(record.thinnest);
   page.body += section_html("Command", command_html("To make this page again", command));
   return page_html(page);
 }

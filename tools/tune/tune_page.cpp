@@ -70,10 +70,8 @@ std::string curves_section(const TuneRecord& record) {
         "From {} frames on, one in {} pages was replayed; misses are within {} % of "
         "the lookups of the exact ones.",
         curves.frames[curves.first_sampled], curves.sampled_step, number_text(100 * curves.error)));
-  return section_html("Misses", html +
-                                    row_of_plots_html(plot_html(curves_plot(record)) +
-                                                      plot_html(working_set_plot(record))) +
-                                    table_html(table));
+  return section_html("Misses",
+                      html + row_of_plots_html(plot_html(curves_plot(record))) + table_html(table));
 }
 
 std::vector<std::pair<std::string, std::string>> felt_figures(const FeltPoint& point) {
@@ -171,7 +169,8 @@ std::string time_section(const TuneRecord& record) {
     table.rows.push_back(std::move(row));
   }
   return section_html("Place and time", row_of_plots_html(strip_html(looked_up_strip(record)) +
-                                                          strip_html(resident_strip(record))) +
+                                                          strip_html(resident_strip(record)) +
+                                                          plot_html(working_set_plot(record))) +
                                             table_html(table));
 }
 

@@ -67,6 +67,7 @@ HeatStrip strip_of(const TuneRecord& record, PageSet TraceTimeline::Window::*set
   strip.values = timeline.shares(set, kStripRows);
   strip.x_end = seconds_of(record, strip.columns);
   strip.x = PlotAxis::linear("seconds", strip.x_end, short_text);
+  for (std::size_t i = 0; i < strip.columns; ++i) strip.keys.push_back(window_key(i));
   strip.y_title = "pages: tree, caps and mask, each by octcode";
   return strip;
 }
@@ -164,7 +165,7 @@ HeatStrip looked_up_strip(const TuneRecord& record) {
   strip.description =
       "Share of the pages of each row that queries looked up in each window of time. Neighbouring "
       "rows are neighbours in the model.";
-  strip.legend = "darker: more of the pages of a row";
+  strip.legend = "stronger: more of the pages of a row";
   return strip;
 }
 
@@ -174,7 +175,7 @@ HeatStrip resident_strip(const TuneRecord& record) {
   strip.title = "Pages in memory, by place and time";
   strip.description =
       "Share of the pages of each row that were in memory in each window of time, as recorded.";
-  strip.legend = "darker: more of the pages of a row";
+  strip.legend = "stronger: more of the pages of a row";
   return strip;
 }
 

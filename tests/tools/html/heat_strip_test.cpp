@@ -36,6 +36,15 @@ TEST(HeatStrip, DrawsNeighboursOfOneShadeAsOneCell) {
   EXPECT_EQ(count_of(html, "fill-opacity=\"0.50\" d=\"M18.0 28.0h111.0v88.0h-111.0Z\""), 1);
 }
 
+TEST(HeatStrip, HasAnAreaForTheFiguresOfEachColumn) {
+  EXPECT_EQ(count_of(strip_html(sample_strip()), "data-key="), 0);
+  HeatStrip strip = sample_strip();
+  strip.keys = {"w0", "w1", "w2", "w3"};
+  const std::string html = strip_html(strip);
+  EXPECT_EQ(count_of(html, "data-key=\"w3\"><rect class=\"shape hit column\" x=\"351.0\""), 1);
+  EXPECT_EQ(count_of(html, "data-key="), 4);
+}
+
 TEST(HeatStrip, EscapesItsTexts) {
   const std::string html = strip_html(sample_strip());
   EXPECT_EQ(count_of(html, "Pages &lt;looked up&gt;"), 2);

@@ -106,5 +106,31 @@ TEST(PlotAxis, CanBeSharesOrNames) {
   EXPECT_EQ(texts_of(named), (std::vector<std::string>{"a", "b"}));
 }
 
+TEST(PlotAxis, HasNoTickBelowWhereTheLaneBegins) {
+  const PlotAxis axis = axis_of({0, 0});
+  EXPECT_EQ(texts_of(axis).front(), "< 1e-9");
+  EXPECT_EQ(texts_of(axis)[1], "1e-9");
+}
+
+TEST(PlotAxis, MarksRoundValuesBetweenTwo) {
+  const PlotAxis axis = PlotAxis::between("title", -18.9, 18.9, short_text);
+  EXPECT_EQ(texts_of(axis), (std::vector<std::string>{"-10", "0", "10"}));
+  EXPECT_DOUBLE_EQ(axis.place(-18.9), 0);
+  EXPECT_DOUBLE_EQ(axis.place(0), 0.5);
+  EXPECT_DOUBLE_EQ(axis.place(18.9), 1);
+}
+
+TEST(PlotAxis, GivesEachNineOfAQuantileTheSameRoom) {
+  const PlotAxis axis = PlotAxis::quantiles("title", 1000);
+  EXPECT_EQ(texts_of(axis), (std::vector<std::string>{"min", "50 %", "90 %", "99 %", "99.9 %"}));
+  EXPECT_DOUBLE_EQ(axis.place(1), 0);
+  EXPECT_DOUBLE_EQ(axis.place(10), 1.0 / 3);
+  EXPECT_DOUBLE_EQ(axis.place(1000), 1);
+  EXPECT_EQ(texts_of(PlotAxis::quantiles("title", 1)),
+            (std::vector<std::string>{"min", "50 %", "90 %"}));
+  EXPECT_EQ(texts_of(PlotAxis::quantiles("title", 8.6e9)),
+            (std::vector<std::string>{"min", "99 %", "99.99 %", "99.9999 %", "99.999999 %"}));
+}
+
 }  // namespace
 }  // namespace planetree::tools

@@ -89,20 +89,31 @@ TEST_F(ValuePagesInBrowser, FitWindowsInBothThemesAtAnyScale) {
   }
 }
 
-TEST_F(ValuePagesInBrowser, HaveABarForEachRangeAndTheirColours) {
+TEST_F(ValuePagesInBrowser, HaveAColumnAndARowForEachRangeAndTheirColours) {
   const auto report = examined(compare_page(sample_comparison(1, true), "planetree"), R"js(
-    const bars = [...document.querySelectorAll('#deviations .cell')];
+    const columns = [...document.querySelectorAll('#deviations .point')];
+    const row = (key) => document.querySelector(`tr[data-key="${key}"]`);
+    const svg = document.querySelector('#deviations');
+    const tip = svg.parentElement.querySelector('.tip'), last = columns[columns.length - 1];
+    svg.parentElement.scrollIntoView();
+    const box = last.querySelector('.hit').getBoundingClientRect();
+    svg.dispatchEvent(new PointerEvent('pointermove', {bubbles: true,
+      clientX: (box.left + box.right) / 2, clientY: box.top + 2}));
     return {
-      bars: bars.length,
-      titles: bars.filter((bar) => bar.querySelector('title').textContent.includes(' to ')).length,
+      columns: columns.length,
+      rows: columns.filter((column) => row(column.dataset.key)).length,
+      over: tip.innerText, lit: row(last.dataset.key).classList.contains('lit'),
       marks: document.querySelectorAll('#deviations .mark').length,
       colours: document.querySelectorAll('#deviations rect[fill]').length,
       title: document.querySelector('h1').innerText, bold: document.querySelectorAll('b').length,
     })js",
                                {1440, false});
   ASSERT_TRUE(report.is_object());
-  EXPECT_GT(report["bars"], 50);
-  EXPECT_EQ(report["titles"], report["bars"]);
+  EXPECT_GT(report["columns"], 50);
+  EXPECT_EQ(report["rows"], report["columns"]);
+  EXPECT_NE(report["over"].get<std::string>().find("share of the area"), std::string::npos)
+      << report["over"] << " is above the column, but within its area";
+  EXPECT_EQ(report["lit"], true);
   EXPECT_EQ(report["marks"], 2) << "the tolerance on both sides";
   EXPECT_EQ(report["colours"], 64);
   EXPECT_EQ(report["title"], "</script><b>a\xEF\xBF\xBD.csv");
