@@ -6,13 +6,16 @@
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
+#include <utility>
 
 #include "tools/check/file_parts.h"
 #include "tools/cli/progress.h"
 #include "tools/cli/subcommand_options.h"
 #include "tools/report/explanation.h"
 #include "tools/report/file_survey.h"
+#include "tools/report/inspect_page.h"
 #include "tools/report/page_report.h"
 #include "tools/report/summary_report.h"
 #include "tools/slice/show_slice.h"
@@ -34,7 +37,10 @@ class Inspection {
   int show_nodes();
 
  private:
-  FileSurvey survey(Json& page_rows);
+  void print(const std::string& text);
+  FileSurvey survey(Json& page_rows, PageTally& tally);
+  std::string all_text(const InspectRecord& record) const;
+  std::string all_json(const InspectRecord& record, Json page_rows) const;
   int print_issues(const IssueList& issues);
   void print_issue(const Issue& issue);
   Json issues_json(const IssueList& issues) const;
@@ -71,40 +77,69 @@ Json Inspection::issues_json(const IssueList& issues) const {
   return array;
 }
 
-FileSurvey Inspection::survey(Json& page_rows) {
+/// Prints a part of the report, to standard error if the page goes to standard output.
+void Inspection::print(const std::string& text) {
+  if (arguments_.html.is_standard_output())
+    console_.note(text);
+  else
+    console_.print(text);
+}
+
+FileSurvey Inspection::survey(Json& page_rows, PageTally& tally) {
   const bool print_rows = arguments_.pages && !arguments_.json;
   Progress progress(arguments_.quiet || (print_rows && console_.output_is_terminal()),
                     arguments_.json);
   progress.start("reading", parts_.page_count(), "pages");
-  if (print_rows && parts_.page_count() > 0) console_.print(page_heading());
+  if (print_rows && parts_.page_count() > 0) print(page_heading());
   return survey_file(parts_, [&](const PageRow& row) {
     progress.add(1);
+    tally.add(row);
     if (!arguments_.pages) return true;
-    if (print_rows) return console_.print(page_line(row));
-    page_rows.push_back(page_json(row));
+    if (arguments_.json)
+      page_rows.push_back(page_json(row));
+    else if (arguments_.html.html.empty())
+      return console_.print(page_line(row));
+    else
+      print(page_line(row));
     return true;
   });
 }
 
 int Inspection::show_all() {
+  ReportPage page(arguments_.html, console_);
+  if (const int status = page.open(std::span(&arguments_.file, 1)); status != kDone) return status;
   Json page_rows = Json::array();
-  const FileSurvey found = survey(page_rows);
-  if (!arguments_.json) {
-    if (arguments_.levels) console_.print(levels_text(found));
-    console_.print(summary_text(arguments_.file.string(), parts_, found));
-    return console_.finish(print_issues(found.issues));
-  }
-  Json json = {{"file", arguments_.file.string()}};
-  json.update(summary_json(parts_, found));
+  InspectRecord record{arguments_.file.string(), {}, {}, PageTally(parts_)};
+  record.survey = survey(page_rows, record.pages);
+  record.summary = summary_json(parts_, record.survey);
+  const std::string text =
+      arguments_.json ? all_json(record, std::move(page_rows)) : all_text(record);
+  const int status = page.report(text, [&] {
+    return inspect_page(record, inspect_command(arguments_.file, arguments_.html.html));
+  });
+  const IssueList& issues = record.survey.issues;
+  const int faults = !arguments_.json     ? print_issues(issues)
+                     : issues.count() > 0 ? kDataAtFault
+                                          : kDone;
+  return console_.finish(std::max(status, faults));
+}
+
+std::string Inspection::all_text(const InspectRecord& record) const {
+  return (arguments_.levels ? levels_text(record.survey) : std::string()) +
+         summary_text(record.file, parts_, record.survey);
+}
+
+std::string Inspection::all_json(const InspectRecord& record, Json page_rows) const {
+  Json json = {{"file", record.file}};
+  json.update(record.summary);
   if (arguments_.levels) {
-    json["by_level"] = levels_json(found);
-    json["mask_by_level"] = mask_levels_json(found);
+    json["by_level"] = levels_json(record.survey);
+    json["mask_by_level"] = mask_levels_json(record.survey);
   }
   if (arguments_.pages) json["by_page"] = std::move(page_rows);
-  json["issue_count"] = found.issues.count();
-  json["issues"] = issues_json(found.issues);
-  console_.print(json_line(json));
-  return console_.finish(found.issues.count() > 0 ? kDataAtFault : kDone);
+  json["issue_count"] = record.survey.issues.count();
+  json["issues"] = issues_json(record.survey.issues);
+  return json_line(json);
 }
 
 int Inspection::show_page(std::uint32_t page) {
@@ -190,15 +225,15 @@ std::string node_complaint(const std::string& text) {
 SliceArguments slice_of(const InspectArguments& arguments) {
   SliceArguments slice = arguments.slice;
   slice.file = arguments.file;
-  slice.replace_image = arguments.replace;
+  slice.replace_image = arguments.html.force;
   slice.json = arguments.json;
   slice.quiet = arguments.quiet;
   return slice;
 }
 
 BoundsArguments bounds_of(const InspectArguments& arguments) {
-  return {arguments.file,    arguments.bounds.output, arguments.bounds.level,
-          arguments.replace, arguments.json,          arguments.quiet};
+  return {arguments.file,       arguments.bounds.output, arguments.bounds.level,
+          arguments.html.force, arguments.json,          arguments.quiet};
 }
 
 }  // namespace
@@ -258,22 +293,26 @@ void add_inspect(CLI::App& app, Console& console, std::function<int()>& action) 
                                 "Write instead the bounding planes of a level of the tree as a "
                                 "mesh: discs as polygons in both "
                                 "planes of each slab. The root has level 0. - is standard output");
-  for (const auto other : {node, page, why, bounds}) subcommand.exclude(slices.slice, other);
-  for (const auto other : {node, page, why}) subcommand.exclude(bounds, other);
-  const auto force = subcommand.flag("--force", arguments.replace,
-                                     "Replace the file of --image or --export-bounds if it exists");
+  const auto html = add_page_path(subcommand, arguments.html);
+  for (const auto other : {node, page, why, bounds, html}) subcommand.exclude(slices.slice, other);
+  for (const auto other : {node, page, why, html}) subcommand.exclude(bounds, other);
+  for (const auto other : {node, page, why}) subcommand.exclude(html, other);
+  const auto force = subcommand.flag("--force", arguments.html.force,
+                                     "Replace the file of --image, --export-bounds or --html if it "
+                                     "exists");
   subcommand.flag("--json", arguments.json,
                   "Report as one JSON object; progress as JSON lines, on standard error");
   subcommand.flag("--quiet", arguments.quiet, "Show no progress");
-  subcommand.on_given([options, page, slices, bounds, force, &console, &action] {
+  subcommand.on_given([options, page, slices, bounds, html, force, &console,
+                       &action]() -> std::string {
     const auto given = [](SubcommandOptions::Option one) { return SubcommandOptions::given(one); };
-    if (given(force) && !given(slices.image) && !given(bounds))
-      return std::string("--force requires --image or --export-bounds");
+    if (given(force) && !given(slices.image) && !given(bounds) && !given(html))
+      return "--force replaces a file; add --image, --export-bounds or --html";
     if (std::string complaint = slices.complaint(options->arguments.slice); !complaint.empty())
       return complaint;
     if (given(page)) options->arguments.page = options->page;
     action = [options, &console] { return run_inspect(options->arguments, console); };
-    return std::string();
+    return {};
   });
 }
 

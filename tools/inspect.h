@@ -7,6 +7,7 @@
 
 #include "planetree/types.h"
 #include "tools/cli/file_text.h"
+#include "tools/cli/report_page.h"
 #include "tools/cli/subcommand.h"
 #include "tools/report/show_bounds.h"
 #include "tools/slice/slice_arguments.h"
@@ -27,13 +28,13 @@ struct InspectArguments {
   SliceArguments slice;    ///< if it has a plane; `file`, `json` and `quiet` are those of this
   BoundsArguments bounds;  ///< likewise, if it has an output
   std::optional<Vec3> why;
-  bool replace = false;  ///< the picture or the bounds
+  PageChoice html;  ///< page to write; --force is also for the picture and the bounds
   bool json = false;
   bool quiet = false;
 };
 
-/// Reports the contents of a file, also of a damaged one. Writes nothing but a picture or bounds.
-/// Returns the exit status, 1 if the file has an issue or pages could not be read.
+/// Reports the contents of a file, also of a damaged one. Writes nothing but a picture, bounds or a
+/// page. Returns the exit status, 1 if the file has an issue or pages could not be read.
 int run_inspect(const InspectArguments& arguments, Console& console);
 
 /// Adds the subcommand `inspect` to the command line. If it is given, parsing sets `action` to a

@@ -49,6 +49,8 @@ std::string row_of_plots_html(const std::string& html) {
   return fmt::format("<div class=\"plots\">\n{}</div>\n", html);
 }
 
+std::string plot_cell_html(const std::string& html) { return "<div>\n" + html + "</div>\n"; }
+
 std::string facts_html(const HtmlFigures& facts) {
   std::string html = fmt::format("<dl class=\"facts\" aria-label=\"{}\">", html_text(facts.title));
   for (const auto& [name, value] : facts.values)

@@ -32,6 +32,8 @@ struct HtmlPage {
 [[nodiscard]] std::string section_html(const std::string& heading, const std::string& html);
 /// Plots beside each other where the page is wide, and below each other where it is not.
 [[nodiscard]] std::string row_of_plots_html(const std::string& html);
+/// A cell of such a row: a plot with its own table below it.
+[[nodiscard]] std::string plot_cell_html(const std::string& html);
 /// Terms with their values, such as the size of a model.
 [[nodiscard]] std::string facts_html(const HtmlFigures& facts);
 /// A command to copy, with what it is for.

@@ -34,8 +34,10 @@ section { margin-top: 40px; padding-top: 24px; border-top: 1px solid var(--line)
 p { margin: 0 0 12px; max-width: 78ch; overflow-wrap: anywhere; }
 .facts { display: flex; flex-wrap: wrap; gap: 10px 36px; margin: 0 0 16px; }
 .facts dt { color: var(--quiet); font-size: 13px; }
-.facts dd { margin: 0; font-size: 17px; font-variant-numeric: tabular-nums; }
+.facts div { min-width: 0; }
+.facts dd { margin: 0; overflow-wrap: anywhere; font-size: 17px; font-variant-numeric: tabular-nums; }
 .plots { display: grid; grid-template-columns: repeat(2, minmax(0, 1fr)); gap: 20px 40px; }
+.plots > div { min-width: 0; }
 figure { margin: 10px 0 4px; min-width: 0; max-width: 640px; }
 figcaption { font-weight: 600; }
 .legend {

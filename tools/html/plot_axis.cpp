@@ -122,7 +122,7 @@ PlotAxis PlotAxis::between(std::string title, double lower, double upper, TickTe
   }
   const double slack = kSlack * step;
   for (double n = std::ceil((lower - slack) / step); n * step <= upper + slack; ++n)
-    axis.add_tick(n * step, text(n * step));
+    axis.add_tick(n * step + 0.0, text(n * step + 0.0));  // no -0
   return axis;
 }
 

@@ -142,7 +142,19 @@ class Surveyor {
       ++row.blocks;
       row.triangles += frame.block(slot).triangle_count();
     });
-    for (const auto& depth : node_depths) reached = reached && depth.has_value();
+    std::optional<std::uint32_t> highest;
+    const auto raise = [&highest](std::uint32_t depth) {
+      highest = std::min(depth, highest.value_or(depth));
+    };
+    for (const auto& depth : node_depths) {
+      reached = reached && depth.has_value();
+      if (depth) raise(*depth);
+    }
+    for (const auto& [slot, depth] : block_depths) raise(depth);
+    if (highest) {
+      ++level(*highest).pages;
+      level(*highest).page_bytes += parts_.entries()[page].stored_bytes;
+    }
     if (!reached) ++survey_.unreached_pages;
     pending_.finish_page(page, [](const auto&, const auto&) {});
   }

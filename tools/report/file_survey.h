@@ -21,6 +21,8 @@ struct LevelRow {
   std::uint64_t children = 0;  ///< children of those nodes
   std::uint64_t blocks = 0;
   std::uint64_t triangles = 0;  ///< triangles in those blocks
+  /// Distance pages whose highest node or block has this depth, and their stored bytes.
+  std::uint64_t pages = 0, page_bytes = 0;
 };
 
 /// Counts of the cells of one level of the mask.

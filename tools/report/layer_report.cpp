@@ -28,14 +28,6 @@ struct LayerRow {
   std::optional<std::uint64_t> min_budget_saved{};  // bytes
 };
 
-std::optional<std::uint64_t> min_budget(const FileParts& parts, std::uint32_t layers) {
-  OpenOptions options;
-  options.max_probes = 1;
-  options.layers = layers;
-  const auto bytes = query::ModelState::min_budget_bytes(parts.path(), options);
-  return bytes ? std::optional(*bytes) : std::nullopt;
-}
-
 std::vector<LayerRow> layer_rows(const FileParts& parts) {
   const Sections sections = sections_of(parts);
   const std::uint32_t cap_pages = parts.first_field_page() - parts.first_cap_page();
@@ -54,16 +46,24 @@ std::vector<LayerRow> layer_rows(const FileParts& parts) {
       row(kSideLayer, side_pages, sections.side_pages()),
       row(kFieldLayer, field_pages, sections.field_pages),
       row(kAttributeLayer, attribute_pages, sections.attribute_pages)};
-  const auto all = min_budget(parts, kAllLayers);
+  const auto all = min_budget_bytes(parts, kAllLayers);
   for (LayerRow& each : rows) {
     if (each.layer == kDistanceLayer || !each.is_there || !all) continue;
-    if (const auto less = min_budget(parts, kAllLayers & ~each.layer))
+    if (const auto less = min_budget_bytes(parts, kAllLayers & ~each.layer))
       each.min_budget_saved = *all - *less;
   }
   return rows;
 }
 
 }  // namespace
+
+std::optional<std::uint64_t> min_budget_bytes(const FileParts& parts, std::uint32_t layers) {
+  OpenOptions options;
+  options.max_probes = 1;
+  options.layers = layers;
+  const auto bytes = query::ModelState::min_budget_bytes(parts.path(), options);
+  return bytes ? std::optional(*bytes) : std::nullopt;
+}
 
 Sections sections_of(const FileParts& parts) {
   Sections sections;

@@ -2,8 +2,10 @@
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 
+#include "planetree/layers.h"
 #include "tools/check/file_parts.h"
 
 /// What the layers of a file take, and what leaving them out saves.
@@ -22,6 +24,10 @@ struct Sections {
   std::uint64_t side_pages() const { return cap_pages + mask_pages; }
 };
 [[nodiscard]] Sections sections_of(const FileParts& parts);
+
+/// The least memory budget with one probe and these layers. Empty if the file cannot be opened.
+[[nodiscard]] std::optional<std::uint64_t> min_budget_bytes(const FileParts& parts,
+                                                            std::uint32_t layers = kAllLayers);
 
 /// Pages and stored bytes of each layer, without headers and page table. Also what leaving the
 /// layer out at open saves: of the minimum budget with one probe, and of the frames that hold all

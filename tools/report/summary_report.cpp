@@ -246,7 +246,9 @@ Json summary_json(const FileParts& parts, const FileSurvey& survey) {
                {"special_configurations", mask_sum(survey).special},
                {"lists_of_blocks", survey.lists},
                {"bytes", bytes_json(parts, survey)},
+               {"min_budget_bytes", nullptr},
                {"layers", layers_json(parts)}};
+  if (const auto bytes = min_budget_bytes(parts)) json["min_budget_bytes"] = *bytes;
   if (model.first_skipped != storage::kNoTriangle) json["first_skipped"] = model.first_skipped;
   return json;
 }
@@ -318,7 +320,9 @@ Json levels_json(const FileSurvey& survey) {
                     {"blocks", row.blocks},
                     {"triangles", row.triangles},
                     {"children_per_node", share(row.children, row.nodes)},
-                    {"triangles_per_block", share(row.triangles, row.blocks)}});
+                    {"triangles_per_block", share(row.triangles, row.blocks)},
+                    {"pages", row.pages},
+                    {"page_bytes", row.page_bytes}});
   }
   return rows;
 }

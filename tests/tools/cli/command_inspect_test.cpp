@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <string>
 
 #include "tests/tools/cli/command_fixture.h"
@@ -179,6 +180,34 @@ TEST_F(Command, VerifyListsIssuesAndFails) {
   EXPECT_EQ(issue["offset"], offset);
   const Outcome plain = run({"verify", "tree.ptree"});
   EXPECT_TRUE(plain.output.starts_with("tree.ptree: PAGE_CHECKSUM: page 1, at byte "));
+}
+
+TEST_F(Command, InspectWritesAPageBesideItsReport) {
+  const Outcome plain = run({"inspect", "tree.ptree"});
+  const Outcome result = run({"inspect", "tree.ptree", "--html", "page.html"});
+  ASSERT_EQ(result.status, 0) << result.errors;
+  EXPECT_EQ(result.output, plain.output);
+  const std::string page = text_of("page.html");
+  EXPECT_NE(page.find("planetree inspect tree.ptree --html page.html --force"), std::string::npos);
+  EXPECT_EQ(run({"inspect", "tree.ptree", "--html", "page.html"}).status, 2) << "it exists";
+  EXPECT_EQ(run({"inspect", "tree.ptree", "--html", "page.html", "--force"}).status, 0);
+  EXPECT_EQ(run({"inspect", "tree.ptree", "--html", "tree.ptree", "--force"}).status, 2);
+  const char* const piped =
+      PLANETREE_COMMAND " inspect tree.ptree --html - --pages >piped.html 2>report.txt";
+  ASSERT_EQ(std::system(piped), 0);
+  EXPECT_TRUE(text_of("piped.html").starts_with("<!DOCTYPE html>"));
+  EXPECT_TRUE(text_of("piped.html").ends_with("</html>\n"));
+  EXPECT_NE(text_of("report.txt").find("content id"), std::string::npos);
+  EXPECT_EQ(run({"inspect", "tree.ptree", "--html", "x.html", "--page", "0"}).status, 2);
+  EXPECT_EQ(run({"inspect", "tree.ptree", "--force"}).status, 2);
+}
+
+TEST_F(Command, InspectWritesAPageOfADamagedFile) {
+  flip("tree.ptree", entries_[1].offset);
+  const Outcome result = run({"inspect", "tree.ptree", "--json", "--html", "page.html"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(Json::parse(result.output)["issue_count"], 1);
+  EXPECT_NE(text_of("page.html").find(">PAGE_CHECKSUM</th>"), std::string::npos);
 }
 
 }  // namespace

@@ -115,6 +115,7 @@ TEST(PlotAxis, HasNoTickBelowWhereTheLaneBegins) {
 TEST(PlotAxis, MarksRoundValuesBetweenTwo) {
   const PlotAxis axis = PlotAxis::between("title", -18.9, 18.9, short_text);
   EXPECT_EQ(texts_of(axis), (std::vector<std::string>{"-10", "0", "10"}));
+  EXPECT_EQ(texts_of(PlotAxis::between("title", 0, 64, short_text)).front(), "0") << "not -0";
   EXPECT_DOUBLE_EQ(axis.place(-18.9), 0);
   EXPECT_DOUBLE_EQ(axis.place(0), 0.5);
   EXPECT_DOUBLE_EQ(axis.place(18.9), 1);
