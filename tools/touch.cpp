@@ -24,6 +24,7 @@
 #include "tools/session/session_report.h"
 #include "tools/session/session_ticks.h"
 #include "tools/session/session_trace.h"
+#include "tools/session/touch_page.h"
 #include "tools/simulation/simulated_session.h"
 #include "tools/simulation/trace_budget.h"
 #include "tools/trace_file/trace_writer.h"
@@ -157,9 +158,11 @@ Result<Outcome> run_simulated(const TouchArguments& arguments, std::span<const V
 
 int run_touch(const TouchArguments& arguments, Console& console) {
   const std::string file = arguments.file.string();
-  auto ticks = open_extra_output<OutputFile>(arguments.ticks, arguments.force);
+  ReportPage page(arguments.page, console);
+  if (const int status = page.open(std::span(&arguments.file, 1)); status != kDone) return status;
+  auto ticks = open_extra_output<OutputFile>(arguments.ticks, arguments.page.force);
   if (!ticks) return console.fail(arguments.ticks.string(), ticks.error());
-  auto trace = open_extra_output<TraceWriter>(arguments.trace, arguments.force);
+  auto trace = open_extra_output<TraceWriter>(arguments.trace, arguments.page.force);
   if (!trace) return console.fail(arguments.trace.string(), trace.error());
   const auto path = find_path(arguments, console);
   if (!path) return console.fail(file, path.error());
@@ -169,10 +172,16 @@ int run_touch(const TouchArguments& arguments, Console& console) {
                                                   : run_real(arguments, *path, *trace);
   if (!outcome) return console.fail(file, outcome.error());
   const PrefetchFigures* const prefetch = outcome->prefetch ? &*outcome->prefetch : nullptr;
-  console.print(arguments.json ? touch_json(arguments, outcome->record, outcome->stats, prefetch)
-                               : touch_words(arguments, outcome->record, outcome->stats, prefetch));
+  const TouchRecord& record = outcome->record;
+  const std::string text = arguments.json
+                               ? touch_json(arguments, record, outcome->stats, prefetch)
+                               : touch_words(arguments, record, outcome->stats, prefetch);
+  const int reported = page.report(text, [&] {
+    return touch_page(arguments, record, outcome->stats, prefetch, touch_command(arguments));
+  });
+  if (reported != kDone) return console.finish(reported);
   if (*ticks)
-    if (const auto written = write_whole(**ticks, touch_ticks(*path, outcome->record)); !written)
+    if (const auto written = write_whole(**ticks, touch_ticks(*path, record)); !written)
       return console.finish(console.fail(arguments.ticks.string(), written.error()));
   if (!outcome->trace_written)
     return console.finish(console.fail(arguments.trace.string(), outcome->trace_written.error()));
@@ -247,8 +256,9 @@ void add_touch(CLI::App& app, Console& console, std::function<int()>& action) {
       subcommand.count("--seed", options->seed, std::numeric_limits<std::uint64_t>::max(),
                        "Choose another path of the same kind"),
       "20");
-  subcommand.flag("--force", options->force,
-                  "Replace the files of --ticks and --trace if they exist");
+  add_page_path(subcommand, options->page);
+  subcommand.flag("--force", options->page.force,
+                  "Replace the files of --ticks, --trace and --html if they exist");
   subcommand.flag(
       "--cold", options->cold,
       "Drop the file from the system's page cache first, so that every page comes from the disk");

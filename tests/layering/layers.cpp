@@ -202,7 +202,7 @@ const std::vector<Layer>& layers() {
       {"tools/shapes", {"tools/cli"}, {}, {"fmt"}},
       {"tools/trace_file", {"tools/cli", "storage/file"}, {"storage/system"}, {}},
       {"tools/session",
-       {"tools/trace_file", "tools/answers", "tools/cli"},
+       {"tools/trace_file", "tools/answers", "tools/html", "tools/cli"},
        {"storage/file", "storage/system"},
        with_system({"fmt", "nlohmann"})},
       // A session on a simulated disk replaces the seams of the engine.

@@ -13,7 +13,7 @@ namespace {
 
 // In units of the drawing, with the text sizes of the page's style.
 constexpr double kWidth = 480, kHeight = 280;
-constexpr double kLeft = 58, kRight = 18, kTop = 34;
+constexpr double kLeft = 70, kRight = 18, kTop = 34;
 constexpr double kBandGap = 4, kBandHeight = 9;
 
 /// Appends the parts of a plot's drawing.

@@ -89,7 +89,10 @@ PlotAxis PlotAxis::logarithmic(std::string title, std::span<const double> values
   axis.lower_ = std::log10(ticks.front());
   axis.upper_ = std::log10(ticks.back());
   if (axis.lane_end_ > 0) axis.ticks_.push_back({axis.place(0), "< " + text(least)});
-  for (const double tick : ticks) axis.add_tick(tick, text(tick));
+  // Of very many decades, every other or fewer have room.
+  const std::size_t step = (ticks.size() + kMaxTicks) / (kMaxTicks + 1);
+  for (std::size_t i = (ticks.size() - 1) % step; i < ticks.size(); i += step)
+    axis.add_tick(ticks[i], text(ticks[i]));
   return axis;
 }
 
@@ -131,8 +134,11 @@ PlotAxis PlotAxis::quantiles(std::string title, double most) {
   PlotAxis axis;
   axis.title_ = std::move(title);
   axis.is_logarithmic_ = true;
-  axis.upper_ = std::log10(std::max(most, 10.0));
-  const int nines = static_cast<int>(axis.upper_ + kSlack);
+  constexpr double kMargin = 0.05;  // for the text of the first and the last tick
+  const double powers = std::log10(std::max(most, 10.0));
+  axis.lower_ = -kMargin * powers;
+  axis.upper_ = (1 + kMargin) * powers;
+  const int nines = static_cast<int>(powers + kSlack);
   const int step = (nines + kMaxNines - 1) / kMaxNines;
   axis.add_tick(1, "min");
   if (nines < kMaxNines) axis.add_tick(2, "50 %");

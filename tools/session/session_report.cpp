@@ -132,18 +132,6 @@ nlohmann::ordered_json prefetch_report(const PrefetchFigures& prefetch) {
           {"evicted_unused", prefetch.evicted_unused}};
 }
 
-nlohmann::ordered_json report_of(const TouchArguments& arguments, const TouchRecord& record,
-                                 const Stats& stats, const PrefetchFigures* prefetch) {
-  nlohmann::ordered_json report = session_report(arguments, record, stats);
-  report["deterministic"] = arguments.is_deterministic;
-  if (arguments.is_deterministic)
-    report["read_latency_us"] = static_cast<double>(arguments.latency_ns) / 1e3;
-  else
-    report.update(machine_report(arguments, record, stats));
-  if (prefetch) report["prefetch"] = prefetch_report(*prefetch);
-  return report;
-}
-
 std::string row(const nlohmann::ordered_json& shares) {
   std::string text;
   for (const auto& [name, share] : kShares)
@@ -170,14 +158,26 @@ std::string machine_words(const TouchRecord& record, const nlohmann::ordered_jso
 
 }  // namespace
 
+nlohmann::ordered_json touch_report(const TouchArguments& arguments, const TouchRecord& record,
+                                    const Stats& stats, const PrefetchFigures* prefetch) {
+  nlohmann::ordered_json report = session_report(arguments, record, stats);
+  report["deterministic"] = arguments.is_deterministic;
+  if (arguments.is_deterministic)
+    report["read_latency_us"] = static_cast<double>(arguments.latency_ns) / 1e3;
+  else
+    report.update(machine_report(arguments, record, stats));
+  if (prefetch) report["prefetch"] = prefetch_report(*prefetch);
+  return report;
+}
+
 std::string touch_json(const TouchArguments& arguments, const TouchRecord& record,
                        const Stats& stats, const PrefetchFigures* prefetch) {
-  return json_line(report_of(arguments, record, stats, prefetch));
+  return json_line(touch_report(arguments, record, stats, prefetch));
 }
 
 std::string touch_words(const TouchArguments& arguments, const TouchRecord& record,
                         const Stats& stats, const PrefetchFigures* prefetch) {
-  const auto report = report_of(arguments, record, stats, prefetch);
+  const auto report = touch_report(arguments, record, stats, prefetch);
   const auto number = [&](const char* key) { return report[key].get<std::uint64_t>(); };
   std::string text =
       fmt::format("{}: {}, {} ticks at {} Hz, {} held of a budget of {}\n", arguments.file.string(),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "planetree/stats.h"
@@ -9,10 +10,12 @@
 
 namespace planetree::tools {
 
-/// Report of a session, as one JSON object or as text. Simulated sessions have no times of queries
-/// and nothing of the machine.
+/// Report of a session, as a JSON object, as its line and as text. Simulated sessions have no times
+/// of queries and nothing of the machine.
 ///
 /// prefetch  what became of prefetched pages; null: there was no trace
+nlohmann::ordered_json touch_report(const TouchArguments& arguments, const TouchRecord& record,
+                                    const Stats& stats, const PrefetchFigures* prefetch);
 std::string touch_json(const TouchArguments& arguments, const TouchRecord& record,
                        const Stats& stats, const PrefetchFigures* prefetch);
 std::string touch_words(const TouchArguments& arguments, const TouchRecord& record,

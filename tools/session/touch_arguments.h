@@ -5,6 +5,7 @@
 
 #include "planetree/layers.h"
 #include "planetree/model.h"
+#include "tools/cli/report_page.h"
 #include "tools/session/session_path.h"
 
 namespace planetree::tools {
@@ -25,7 +26,7 @@ struct TouchArguments {
   bool latency_is_given = false;
   bool is_deterministic = false;      ///< simulate disk and clock
   std::uint64_t latency_ns = 85'000;  ///< of the simulated disk, for a page
-  bool force = false;                 ///< whether existing files may be replaced
+  PageChoice page;                    ///< page to write, and whether files may be replaced
   bool cold = false;                  ///< drop the file from the system's page cache first
   bool no_io_uring = false;
   bool read_ahead = false;  ///< OpenOptions::read_ahead of the session

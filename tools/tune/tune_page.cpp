@@ -10,6 +10,7 @@
 #include "tools/html/html_page.h"
 #include "tools/html/html_table.h"
 #include "tools/html/html_text.h"
+#include "tools/session/prefetch_html.h"
 #include "tools/tune/tune_plots.h"
 #include "tools/tune/tune_report.h"
 
@@ -126,27 +127,6 @@ std::string page_sizes_section(const TuneRecord& record) {
   return section_html("Page sizes", table_html(table));
 }
 
-std::string prefetch_section(const TuneRecord& record) {
-  const PrefetchFigures& figures = record.prefetch;
-  if (figures.read == 0)
-    return section_html("Prefetch", paragraph_html("No page was read for a motion."));
-  HtmlTable table{"As recorded.",
-                  {{"", "figure", HtmlColumn::Kind::kText},
-                   {"", "value"},
-                   {"", "what it is", HtmlColumn::Kind::kText}},
-                  {}};
-  const auto add = [&](const char* name, double share, const char* meaning) {
-    table.rows.push_back({"", false, "", {name, percent_text(share), meaning}});
-  };
-  add("accuracy", figures.accuracy(), "of the pages read, those that a query found");
-  add("coverage", figures.coverage(), "of the pages needed, those that had been read before");
-  add("timeliness", figures.timeliness(), "of the pages used, those that arrived in time");
-  add("waste", figures.waste(), "of the pages read, those that were evicted unused");
-  return section_html("Prefetch", paragraph_html(fmt::format("{} pages were read for a motion.",
-                                                             grouped_count(figures.read))) +
-                                      table_html(table));
-}
-
 std::string time_section(const TuneRecord& record) {
   HtmlTable table{"Windows of the first trace.",
                   {{"", "from, s"},
@@ -207,8 +187,8 @@ std::string tune_page(const TuneRecord& record, const std::string& command) {
   for (const std::string& trace : record.traces)
     page.title += (page.title.empty() ? "" : ", ") + trace;
   page.body = facts_html(facts(record)) + options_section(record) + curves_section(record) +
-              felt_section(record) + page_sizes_section(record) + prefetch_section(record) +
-              time_section(record) +
+              felt_section(record) + page_sizes_section(record) +
+              prefetch_section(record.prefetch) + time_section(record) +
               section_html("Command", command_html("To make this page again", command));
   add_figures(record, page);
   return page_html(page);

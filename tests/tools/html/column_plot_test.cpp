@@ -28,16 +28,15 @@ ColumnPlot sample_columns() {
 TEST(ColumnPlot, DrawsAColumnFromItsBottomToItsValue) {
   const std::string html = column_plot_html(sample_columns());
   EXPECT_EQ(count_of(html, "class=\"shape column\""), 2) << "none for 0";
-  // The drawing has 404 by 200 units for 40 bytes and 4 pages, and its lower left is 58, 234.
-  EXPECT_EQ(count_of(html, "x=\"58.30\" y=\"34.00\" width=\"100.40\" height=\"200.00\""), 1)
-      << html;
-  EXPECT_EQ(count_of(html, "x=\"260.30\" y=\"134.00\" width=\"201.40\" height=\"50.00\""), 1);
+  // The drawing has 392 by 200 units for 40 bytes and 4 pages, and its lower left is 70, 234.
+  EXPECT_EQ(count_of(html, "x=\"70.30\" y=\"34.00\" width=\"97.40\" height=\"200.00\""), 1) << html;
+  EXPECT_EQ(count_of(html, "x=\"266.30\" y=\"134.00\" width=\"195.40\" height=\"50.00\""), 1);
   EXPECT_EQ(count_of(html, "data-key=\"c&quot;\""), 1);
 }
 
 TEST(ColumnPlot, ShowsSeriesByShapesToo) {
   const std::string html = column_plot_html(sample_columns());
-  EXPECT_EQ(count_of(html, "transform=\"translate(361.0 134.0)\""), 1);
+  EXPECT_EQ(count_of(html, "transform=\"translate(364.0 134.0)\""), 1);
   EXPECT_EQ(count_of(html, "<li>"), 2);
   ColumnPlot plot = sample_columns();
   plot.series.resize(1);
@@ -51,7 +50,7 @@ TEST(ColumnPlot, MarksValuesOnItsAxisAlone) {
   plot.notes = {"1 % above 40"};
   plot.band = {"#000001", "#000002"};
   const std::string html = column_plot_html(plot);
-  EXPECT_EQ(count_of(html, "class=\"mark dashed\" d=\"M260.0 34V"), 1);
+  EXPECT_EQ(count_of(html, "class=\"mark dashed\" d=\"M266.0 34V"), 1);
   EXPECT_EQ(count_of(html, "class=\"mark dashed\""), 1);
   EXPECT_EQ(count_of(html, "<li>dashes: limit</li>"), 1);
   EXPECT_EQ(count_of(html, "<li>1 % above 40</li>"), 1);
