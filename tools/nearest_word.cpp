@@ -1,4 +1,4 @@
-#include "tools/cli/nearest_word.h"
+#include "tools/nearest_word.h"
 
 #include <algorithm>
 
