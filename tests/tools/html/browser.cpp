@@ -75,8 +75,8 @@ std::string decoded(const std::string& text) {
   return bytes;
 }
 
-/// The addresses in the browser's log of its network that are on no file of this machine.
-std::vector<std::string> requests_in(const fs::path& log) {
+/// The addresses in the browser's log of its network that do not start with `own`.
+std::vector<std::string> requests_in(const fs::path& log, const std::string& own) {
   std::ifstream file(log);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   std::vector<std::string> found;
@@ -84,7 +84,7 @@ std::vector<std::string> requests_in(const fs::path& log) {
   for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key, at + 1)) {
     const std::size_t begin = at + key.size();
     const std::string address = text.substr(begin, text.find('"', begin) - begin);
-    if (!address.starts_with("file:")) found.push_back(address);
+    if (!address.starts_with(own)) found.push_back(address);
   }
   return found;
 }
@@ -105,17 +105,26 @@ bool Browser::is_here() { return !program().empty(); }
 
 BrowserVisit Browser::visit(const std::string& html, const std::string& examination,
                             const BrowserWindow& window, const fs::path& folder) {
-  const fs::path page = folder / "visited.html", log = folder / "network.json";
+  const fs::path page = folder / "visited.html";
   std::ofstream(page, std::ios::binary) << with_scripts(html, examination);
+  return visit_address("file://" + page.string(), "file:", window, 2000, folder);
+}
+
+BrowserVisit Browser::visit_address(const std::string& address, const std::string& own,
+                                    const BrowserWindow& window, int budget_ms,
+                                    const fs::path& folder) {
+  const fs::path log = folder / "network.json";
   fs::remove(log);
   // Containers lack what the browser's own sandbox needs.
   const std::string command =
-      "timeout 60 " + program() + " --headless --no-sandbox --disable-gpu --hide-scrollbars" +
+      "timeout 120 " + program() + " --headless --no-sandbox --hide-scrollbars" +
+      (window.has_webgl ? " --use-angle=swiftshader --enable-unsafe-swiftshader"
+                        : " --disable-gpu --disable-3d-apis") +
       " --disable-dev-shm-usage --user-data-dir=" + shell_word((folder / "browser").string()) +
       " --log-net-log=" + shell_word(log.string()) +
       " --window-size=" + std::to_string(window.width) + ",900" +
       " --blink-settings=preferredColorScheme=" + (window.is_dark ? "0" : "1") +
-      " --virtual-time-budget=2000 --dump-dom " + shell_word("file://" + page.string()) +
+      " --virtual-time-budget=" + std::to_string(budget_ms) + " --dump-dom " + shell_word(address) +
       " 2>/dev/null";
   const std::string dom = output_of(command), key = "data-visit=\"";
   BrowserVisit visit;
@@ -129,7 +138,7 @@ BrowserVisit Browser::visit(const std::string& html, const std::string& examinat
   visit.report = json["report"];
   visit.complaints = json["complaints"];
   visit.requests = json["requests"];
-  for (std::string& request : requests_in(log)) visit.requests.push_back(std::move(request));
+  for (std::string& request : requests_in(log, own)) visit.requests.push_back(std::move(request));
   return visit;
 }
 

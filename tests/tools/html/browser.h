@@ -11,6 +11,7 @@ namespace planetree::tools {
 struct BrowserWindow {
   int width = 1440;
   bool is_dark = false;
+  bool has_webgl = false;  ///< drawn in software
 };
 
 /// What a page did in a browser.
@@ -34,6 +35,13 @@ class Browser {
   /// examination  the body of a function in JavaScript; it returns what `report` becomes
   static BrowserVisit visit(const std::string& html, const std::string& examination,
                             const BrowserWindow& window, const std::filesystem::path& folder);
+  /// Opens an address on this machine, and looks at the page after `budget_ms` of its own time. The
+  /// page itself puts what becomes the visit into the attribute `data-visit` of its body, as
+  /// encodeURIComponent of {report, complaints, requests}. Requests of the network's log to other
+  /// addresses than those that start with `own` are added.
+  static BrowserVisit visit_address(const std::string& address, const std::string& own,
+                                    const BrowserWindow& window, int budget_ms,
+                                    const std::filesystem::path& folder);
 };
 
 }  // namespace planetree::tools
