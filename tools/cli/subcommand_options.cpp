@@ -120,6 +120,17 @@ SubcommandOptions::Option SubcommandOptions::text(
       ->check(CLI::Validator([complaint](std::string& given) { return complaint(given); }, "", ""));
 }
 
+SubcommandOptions::Option SubcommandOptions::texts(
+    const std::string& name, const char* type,
+    std::function<std::string(const std::string&)> complaint, std::vector<std::string>& values,
+    const std::string& help) {
+  return subcommand_.add_option(name, values, help)
+      ->type_name(type)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->check(CLI::Validator([complaint](std::string& given) { return complaint(given); }, "", ""));
+}
+
 SubcommandOptions::Option SubcommandOptions::require(Option option) { return option->required(); }
 
 SubcommandOptions::Option SubcommandOptions::default_text(Option option, const std::string& text) {

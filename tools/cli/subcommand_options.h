@@ -58,6 +58,11 @@ class SubcommandOptions {
               std::function<std::string(const std::string&)> complaint,
               std::function<void(const std::string&)> take, const std::string& help);
 
+  /// Texts that `complaint` checks, one for each time that the option is given.
+  Option texts(const std::string& name, const char* type,
+               std::function<std::string(const std::string&)> complaint,
+               std::vector<std::string>& values, const std::string& help);
+
   /// Makes an option or argument mandatory.
   static Option require(Option option);
   /// The default that --help shows.
