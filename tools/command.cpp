@@ -25,6 +25,7 @@
 #include "tools/trade.h"
 #include "tools/tune.h"
 #include "tools/verify.h"
+#include "tools/view.h"
 
 namespace planetree::tools {
 namespace {
@@ -53,6 +54,7 @@ CommandLine::CommandLine(Console& console)
   add_inspect(app, console, action);
   add_verify(app, console, action);
   add_scene(app, console, action);
+  add_view(app, console, action);
   add_touch(app, console, action);
   add_trade(app, console, action);
   add_tune(app, console, action);

@@ -30,8 +30,8 @@ using Clock = std::chrono::steady_clock;
 
 struct Reference {
   explicit Reference(const std::string& path)
-      : model(*Model::open(path, {.memory_budget_bytes = std::uint64_t{16} << 30,
-                                  .locking = Locking::kNever})),
+      : model(*Model::open(
+            path, {.memory_budget_bytes = std::uint64_t{16} << 30, .locking = Locking::kNever})),
         probe(*Probe::create(model)) {}
 
   Model model;
@@ -56,7 +56,7 @@ Local to_local(const Pose& pose, const Vec3& world) {
   const Real n = w * w + x * x + y * y + z * z;
   const Real d[3] = {Real(world.x) - pose.translation.x, Real(world.y) - pose.translation.y,
                      Real(world.z) - pose.translation.z};
-  const auto cross = [&](const Real (&v)[3], Real (&out)[3]) {
+  const auto cross = [&](const Real(&v)[3], Real(&out)[3]) {
     out[0] = y * v[2] - z * v[1];
     out[1] = z * v[0] - x * v[2];
     out[2] = x * v[1] - y * v[0];
@@ -139,8 +139,8 @@ class SceneCheck {
       q = {uniform(-1, 1), uniform(-1, 1), uniform(-1, 1), uniform(0.1, 1)};
       const double length = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
       q = {q.w / length, q.x / length, q.y / length, q.z / length};
-      for (double* axis : {&each.pose.translation.x, &each.pose.translation.y,
-                           &each.pose.translation.z})
+      for (double* axis :
+           {&each.pose.translation.x, &each.pose.translation.y, &each.pose.translation.z})
         *axis = uniform(-2, 2) * size_;
       if (!scene_.set_pose(each.id, each.pose)) std::abort();
     }
@@ -249,8 +249,9 @@ void run_real_time(Scene& scene, std::vector<Placed>& placed, double size, int s
   });
   tool.join();
   idle.join();
-  std::printf("%d ticks at 1 kHz, each with %zu poses: %d late, %d of an idle thread; %d degraded\n",
-              ticks, placed.size(), late, idle_late, degraded);
+  std::printf(
+      "%d ticks at 1 kHz, each with %zu poses: %d late, %d of an idle thread; %d degraded\n", ticks,
+      placed.size(), late, idle_late, degraded);
 }
 
 int run(std::size_t instances, std::uint64_t memory_mb, std::size_t queries, int seconds,
@@ -284,13 +285,13 @@ int run(std::size_t instances, std::uint64_t memory_mb, std::size_t queries, int
   check.check_queries(queries);
   const Tally& tally = check.tally();
   const SceneStats stats = scene->stats();
-  std::printf("%u instances of %u models in %llu MB (%llu frames): %zu nearest points (%zu not "
-              "exact), %zu sides, %zu sets of contacts, %zu sweeps, %zu at once (%zu degraded), "
-              "%zu wrong\n",
-              stats.instances, stats.models, static_cast<unsigned long long>(memory_mb),
-              static_cast<unsigned long long>(stats.frames), tally.nearest, tally.not_exact,
-              tally.sides, tally.contacts, tally.sweeps, tally.at_once, tally.degraded,
-              tally.wrong);
+  std::printf(
+      "%u instances of %u models in %llu MB (%llu frames): %zu nearest points (%zu not "
+      "exact), %zu sides, %zu sets of contacts, %zu sweeps, %zu at once (%zu degraded), "
+      "%zu wrong\n",
+      stats.instances, stats.models, static_cast<unsigned long long>(memory_mb),
+      static_cast<unsigned long long>(stats.frames), tally.nearest, tally.not_exact, tally.sides,
+      tally.contacts, tally.sweeps, tally.at_once, tally.degraded, tally.wrong);
   if (seconds > 0) run_real_time(*scene, placed, size, seconds);
   return tally.wrong == 0 ? 0 : 1;
 }

@@ -155,7 +155,7 @@ TEST_F(BoundsFile, RefusesWhatItCannotDo) {
   expect_line({"--export-bounds", "high", "b.ply"}, 2, "--export-bounds");
   expect_line({"--export-bounds", "300", "b.ply"}, 2, "300 is too large; give at most 255");
   expect_line({"--export-bounds", "1"}, 2, "--export-bounds");
-  expect_line({"--force"}, 2, "--force requires --image or --export-bounds");
+  expect_line({"--force"}, 2, "--force replaces a file; add --image, --export-bounds or --html");
   expect_line({"--export-bounds", "1", "b.ply", "--page", "1"}, 2, "excludes");
   // Page 1 is read only for levels that are in it.
   flip("tree.ptree", entries_[1].offset);

@@ -1,0 +1,75 @@
+#include <cmath>
+#include <string>
+#include <string_view>
+
+#include "tests/fuzz/expectation.h"
+#include "tests/tools/view/sample_source.h"
+#include "tools/view/view_router.h"
+
+namespace planetree::tools {
+namespace {
+
+/// A source that checks that only what the addresses may say reaches it.
+class CheckedSource final : public ViewSource {
+ public:
+  std::string info() override { return "{}"; }
+  Result<std::string> shape(const ShapeView& view) override {
+    expect(view.discs >= 1 && view.discs <= ShapeView::kMaxDiscs);
+    expect(std::isfinite(view.eye.x) && std::isfinite(view.look.z));
+    expect(view.cosine >= -1 && view.cosine <= 1);
+    return std::string("shape");
+  }
+  std::string answer(const PointQuestion& question) override {
+    expect(std::isfinite(question.point.x) && std::isfinite(question.point.y) &&
+           std::isfinite(question.point.z) && std::isfinite(question.within) &&
+           question.within >= 0);
+    return "{}";
+  }
+  std::string stats() override { return "{}"; }
+  std::string pages() override { return {}; }
+  std::string timeline() override { return "null"; }
+};
+
+/// Takes a line off a text.
+std::string_view next_line(std::string_view& text) {
+  const std::size_t end = text.find('\n');
+  const std::string_view line = text.substr(0, end);
+  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  return line;
+}
+
+void expect_sound(const ViewReply& reply) {
+  expect(reply.status == 200 || reply.status == 400 || reply.status == 403 || reply.status == 404 ||
+         reply.status == 405 || reply.status == 414);
+  expect(reply.type.find_first_of("\r\n") == std::string_view::npos);
+}
+
+}  // namespace
+}  // namespace planetree::tools
+
+/// Reads lines as method, host, origin and target of a request. `T` at the beginning of the target
+/// stands for the token.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+  using namespace planetree;
+  using namespace planetree::tools;
+  static CheckedSource source;
+  static const ViewRouter router(kSampleToken, {"127.0.0.1", "::1"}, 80, kSampleFiles, source);
+  static const ViewRouter open_router(kSampleToken, {"::"}, 80, kSampleFiles, source);
+  std::string_view text(reinterpret_cast<const char*>(bytes), size);
+  ViewRequest request;
+  request.method = next_line(text);
+  request.hosts = {next_line(text)};
+  if (const std::string_view origin = next_line(text); !origin.empty()) request.origins = {origin};
+  const bool has_token = text.starts_with('T');
+  const std::string target =
+      has_token ? "/" + std::string(kSampleToken) + std::string(text.substr(1)) : std::string(text);
+  request.target = target;
+  const ViewReply reply = router.respond(request);
+  expect_sound(reply);
+  expect_sound(open_router.respond(request));
+  if (reply.status != 200) return 0;
+  expect(request.method == "GET" && has_token == (target.find(kSampleToken) == 1));
+  expect(target.find(kSampleToken) == 1 && target.size() <= ViewRouter::kMaxTargetBytes);
+  expect(router.respond({request.method, target, {}, {}}).status == 403);
+  return 0;
+}
