@@ -32,7 +32,8 @@ function(planetree_download_three out)
   if(NOT is_kept)
     # Under another name until it is whole, as other configurations may look for it.
     string(RANDOM LENGTH 8 suffix)
-    file(DOWNLOAD ${planetree_three_url} ${kept}.${suffix} TIMEOUT 60 STATUS status)
+    file(DOWNLOAD ${planetree_three_url} ${kept}.${suffix} TIMEOUT 60 INACTIVITY_TIMEOUT 10
+      STATUS status)
     planetree_is_three(${kept}.${suffix} is_kept)
     if(is_kept)
       file(RENAME ${kept}.${suffix} ${kept})
