@@ -50,7 +50,7 @@ struct RasterBox {
   PngImage image{1, 1};
 };
 
-using Shape = std::variant<FilledBox, Stroke, TextLine, RasterBox>;
+using DrawnShape = std::variant<FilledBox, Stroke, TextLine, RasterBox>;
 
 /// A picture. Later shapes cover earlier ones.
 struct Drawing {
@@ -58,7 +58,7 @@ struct Drawing {
   std::string title;                    ///< names the picture, in UTF-8
   std::string description;              ///< for those who do not see it, in UTF-8
   std::string metadata;                 ///< for programs, in ASCII
-  std::vector<Shape> shapes;
+  std::vector<DrawnShape> shapes;
 };
 
 }  // namespace planetree::tools

@@ -110,7 +110,7 @@ class PixelPainter {
 
 PngImage paint(const Drawing& drawing) {
   PixelPainter painter(drawing.width, drawing.height);
-  for (const Shape& shape : drawing.shapes)
+  for (const DrawnShape& shape : drawing.shapes)
     std::visit([&painter](const auto& each) { painter(each); }, shape);
   return painter.take();
 }

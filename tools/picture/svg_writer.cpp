@@ -90,7 +90,7 @@ Result<std::string> svg_text(const Drawing& drawing) {
       drawing.width, drawing.height, html_text(drawing.title), html_text(drawing.description),
       html_text(drawing.metadata), hex(kPaper));
   SvgShapes shapes(text);
-  for (const Shape& shape : drawing.shapes) {
+  for (const DrawnShape& shape : drawing.shapes) {
     const Result<void> added =
         std::visit([&shapes](const auto& each) { return shapes(each); }, shape);
     if (!added) return added.error();

@@ -15,7 +15,7 @@ namespace {
 
 std::multiset<std::string> texts_of(const Drawing& drawing) {
   std::multiset<std::string> texts;
-  for (const Shape& shape : drawing.shapes)
+  for (const DrawnShape& shape : drawing.shapes)
     if (const auto* line = std::get_if<TextLine>(&shape)) texts.insert(line->text);
   return texts;
 }
