@@ -14,8 +14,6 @@
 namespace planetree::query {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 // Error of the quaternion of a relative pose: four products and three sums err by 8 u, the division
 // by the length by 3 u. A rotation errs by twice that.
 constexpr double kRelativeRounding = 32 * octree::kDoubleRoundoff;
@@ -170,7 +168,7 @@ void SceneProbeState::ShellSum::list(const ShellMemory& memory, std::size_t inde
 }
 
 void SceneProbeState::ShellSum::add_unknown() noexcept {
-  sum_.force_error = sum_.torque_error = kInfinity;
+  sum_.force_error = sum_.torque_error = std::numeric_limits<double>::infinity();
   is_exact_ = false;
 }
 
