@@ -37,7 +37,7 @@ std::array<float, 3> middle(const ShapePiece& piece) {
 
 }  // namespace
 
-std::string shape_bytes(const Shape& shape) {
+std::string shape_bytes(const ViewShape& shape) {
   constexpr std::size_t kHeadBytes = 32, kPieceBytes = 64, kTriangleBytes = 48;
   Bytes bytes(kHeadBytes + shape.pieces.size() * kPieceBytes +
               shape.triangles.size() * kTriangleBytes);

@@ -80,7 +80,7 @@ void ShapeReader::start(const ShapeView& view) {
   count_ = 1;
 }
 
-Result<const Shape*> ShapeReader::read(const ShapeView& view, std::chrono::milliseconds most) {
+Result<const ViewShape*> ShapeReader::read(const ShapeView& view, std::chrono::milliseconds most) {
   const Time end = steady_clock::now() + most;
   if (!(view == view_)) start(view);
   while (!shape_.is_complete && steady_clock::now() < end) {

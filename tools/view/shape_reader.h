@@ -36,7 +36,7 @@ struct ShapeTriangle {
 };
 
 /// A shape: every part of the surface is in one piece or one triangle.
-struct Shape {
+struct ViewShape {
   std::vector<ShapePiece> pieces;
   std::vector<ShapeTriangle> triangles;
   std::uint32_t pages_read = 0;  ///< pages read for it so far, repeatedly read ones counted again
@@ -61,7 +61,7 @@ class ShapeReader {
   /// Call it again with the same view to continue.
   ///
   /// errors  kDamaged: a page cannot be read
-  Result<const Shape*> read(const ShapeView& view, std::chrono::milliseconds most);
+  Result<const ViewShape*> read(const ShapeView& view, std::chrono::milliseconds most);
 
   /// Header and page table of the file.
   const FileParts& parts() const { return parts_; }
@@ -83,13 +83,13 @@ class ShapeReader {
   FileParts parts_;
   octree::LinkFormat links_;
   ShapeView view_;  // without discs: none yet
-  Shape shape_;
+  ViewShape shape_;
   std::size_t count_ = 0;  // size of the shape, with the pieces that are being divided
   float threshold_ = 0;    // pieces of greater weight are divided in this round
   bool is_full_ = false;
 };
 
 /// The bytes of a shape, as tools/view/README.md describes them.
-std::string shape_bytes(const Shape& shape);
+std::string shape_bytes(const ViewShape& shape);
 
 }  // namespace planetree::tools

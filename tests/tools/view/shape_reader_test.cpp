@@ -23,7 +23,7 @@ class ShapeReaderTest : public Command {
     ASSERT_TRUE(reader) << reader.error().text;
     reader_.emplace(std::move(*reader));
   }
-  const Shape& read(const ShapeView& view) {
+  const ViewShape& read(const ShapeView& view) {
     const auto shape = reader_->read(view, kLong);
     EXPECT_TRUE(shape) << shape.error().text;
     return **shape;
@@ -38,7 +38,7 @@ class ShapeReaderTest : public Command {
 };
 
 TEST_F(ShapeReaderTest, EndsWithAllTriangles) {
-  const Shape& shape = read(of(ShapeView::kMaxDiscs));
+  const ViewShape& shape = read(of(ShapeView::kMaxDiscs));
   EXPECT_TRUE(shape.is_complete);
   EXPECT_TRUE(shape.pieces.empty());
   ASSERT_EQ(shape.triangles.size(), kTriangles);
@@ -55,7 +55,7 @@ TEST_F(ShapeReaderTest, EndsWithAllTriangles) {
 TEST_F(ShapeReaderTest, KeepsToItsLimit) {
   std::size_t before = 0;
   for (const std::uint32_t limit : {1U, 10U, 30U, 100U, 200U}) {
-    const Shape& shape = read(of(limit));
+    const ViewShape& shape = read(of(limit));
     EXPECT_TRUE(shape.is_complete);
     EXPECT_LE(shape.size(), std::max<std::size_t>(limit, octree::kFanOut)) << limit;
     EXPECT_GE(shape.size(), before);
@@ -65,8 +65,8 @@ TEST_F(ShapeReaderTest, KeepsToItsLimit) {
 }
 
 TEST_F(ShapeReaderTest, CoversTheSurfaceByDiscs) {
-  const Shape pieces = read(of(30));
-  const Shape& whole = read(of(ShapeView::kMaxDiscs));
+  const ViewShape pieces = read(of(30));
+  const ViewShape& whole = read(of(ShapeView::kMaxDiscs));
   ASSERT_FALSE(pieces.pieces.empty());
   for (const ShapeTriangle& triangle : whole.triangles) {
     const auto& at = triangle.corners;
@@ -91,7 +91,7 @@ TEST_F(ShapeReaderTest, IsFinerNearTheEye) {
   view.has_eye = true;
   view.eye = {-0.875, -0.875, 0.1};  // above a corner of the square
   view.look = {0, 0, -1};
-  const Shape& shape = read(view);
+  const ViewShape& shape = read(view);
   ASSERT_FALSE(shape.triangles.empty());
   double near = 0, far = 0;
   for (const ShapeTriangle& triangle : shape.triangles)
@@ -115,7 +115,7 @@ TEST_F(ShapeReaderTest, SaysWhichPageIsDamaged) {
 }
 
 TEST_F(ShapeReaderTest, WritesDiscsAndTriangles) {
-  const Shape& shape = read(of(60));
+  const ViewShape& shape = read(of(60));
   const std::string bytes = shape_bytes(shape);
   ASSERT_EQ(bytes.size(), 32 + 64 * shape.pieces.size() + 48 * shape.triangles.size());
   std::uint32_t head[5];
