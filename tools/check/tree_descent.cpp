@@ -9,7 +9,7 @@ namespace planetree::tools {
 namespace {
 
 /// A node that is to be opened.
-struct OpenNode {
+struct NodeToVisit {
   std::uint32_t slot = 0;
   std::uint32_t depth = 0;
 };
@@ -30,12 +30,12 @@ class TreeDescent {
     if (auto begun = begin(); !begun) return begun;
     while (!open_.empty()) {
       const std::uint32_t page = open_.begin()->first;
-      std::vector<OpenNode> nodes = std::move(open_.begin()->second);
+      std::vector<NodeToVisit> nodes = std::move(open_.begin()->second);
       open_.erase(open_.begin());
       if (progress) progress(page);
       if (parts_.load_page(page)) return damage(page);
       while (!nodes.empty()) {
-        const OpenNode next = nodes.back();
+        const NodeToVisit next = nodes.back();
         nodes.pop_back();
         if (!open(page, next, nodes)) return damage(page);
       }
@@ -67,7 +67,7 @@ class TreeDescent {
   }
 
   // Returns false if a link leads to no node behind this one.
-  bool open(std::uint32_t page, const OpenNode& at, std::vector<OpenNode>& nodes) {
+  bool open(std::uint32_t page, const NodeToVisit& at, std::vector<NodeToVisit>& nodes) {
     const FrameView frame = parts_.frame();
     if (!has_node(frame, at.slot)) return false;
     const octree::Node& node = frame.node(frame.node_at_slot(at.slot));
@@ -76,7 +76,7 @@ class TreeDescent {
       const std::uint32_t link = node.link[child];
       const TreePart part = part_of(page, at.depth + 1, node, child);
       if (!visit_(part) || part.is_block) continue;
-      const OpenNode next{links_.slot(link), part.depth};
+      const NodeToVisit next{links_.slot(link), part.depth};
       if (part.page == page) {
         if (next.slot <= at.slot) return false;
         nodes.push_back(next);
@@ -112,7 +112,7 @@ class TreeDescent {
   FileParts& parts_;
   const Visitor& visit_;
   const octree::LinkFormat links_;
-  std::map<std::uint32_t, std::vector<OpenNode>> open_;  // by page
+  std::map<std::uint32_t, std::vector<NodeToVisit>> open_;  // by page
 };
 
 }  // namespace
