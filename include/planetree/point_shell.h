@@ -183,8 +183,7 @@ class PLANETREE_API PointShell {
   ///   near. The nearest box comes first.
   /// - Without a near instance the wrench is 0, without error.
   ///
-  /// probe     of the scene. With a pose that leaves the range of poses relative to an instance,
-  /// the
+  /// probe     of the scene. If the pose relative to an instance is out of the range of poses, the
   ///           errors are infinite.
   /// state     of this shell.
   /// contacts  as above, in the world frame, one instance after another.

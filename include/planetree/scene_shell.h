@@ -33,10 +33,9 @@ class PLANETREE_API SceneShellState {
   /// Makes a state that knows nothing.
   ///
   /// shell      must outlive the state
-  /// instances  number of instances of which it keeps what it knows, 1 to kMaxInstances. If more
-  /// are
-  ///            near the tool at once, what is known of those that were near earliest is forgotten:
-  ///            they take more queries.
+  /// instances  number of instances of which it keeps what it knows, 1 to kMaxInstances. If the
+  ///            tool is near more of them at once, it forgets what it knows of those that were near
+  ///            earliest: they take more queries.
   /// errors     kBadArgument: `instances` is out of range. kNoMemory.
   /// threads    any, but not real-time threads: allocates memory and writes to all of it.
   [[nodiscard]] static Result<SceneShellState> create(const PointShell& shell,

@@ -8,6 +8,7 @@
 #include "octree/geometry/strict_math.h"
 #include "octree/nearest/interval_ends.h"
 #include "query/scene/scene_model.h"
+#include "query/shell/probe_source.h"
 #include "query/shell/shell_wrench.h"
 #include "query/shell/vectors.h"
 
@@ -26,25 +27,6 @@ Quaternion relative(const Quaternion& a, const Quaternion& b) {
   const double length = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
   return {q.w / length, q.x / length, q.y / length, q.z / length};
 }
-
-// An instance, as a shell asks it.
-class InstanceSource final : public ShellSource {
- public:
-  InstanceSource(ProbeState& probe, const ModelInfo& info) : probe_(probe), info_(info) {}
-
-  ClosestPoint closest_point(const Vec3& query, const QueryOptions& options) noexcept override {
-    return probe_.closest_point(query, options);
-  }
-  Containment contains(const Vec3& query, const QueryOptions& options) noexcept override {
-    return probe_.contains(query, options);
-  }
-  std::uint64_t work_spent() const noexcept override { return probe_.work_spent(); }
-  const ModelInfo& info() const noexcept override { return info_; }
-
- private:
-  ProbeState& probe_;
-  const ModelInfo& info_;
-};
 
 bool has_limit(const ShellOptions& options) {
   return options.wait == Wait::kNever || options.max_work != QueryOptions::kNoLimit;
@@ -94,7 +76,7 @@ void SceneProbeState::ShellSum::visit(std::size_t index) noexcept {
   const octree::RigidTransform transform = view_.transform(index);
   const auto place = place_in(index, transform);
   if (!place) return add_unknown();
-  InstanceSource source(scene_.probe(index), view_.model(index).info);
+  ProbeSource<ProbeState> source(scene_.probe(index), view_.model(index).info);
   ShellMemory& memory = memory_.of(view_.id(index));
   const Wrench local = shell_wrench(source, memory, *place, options_);
   if (is_limited_)

@@ -9,6 +9,7 @@
 #include "octree/geometry/fp_environment.h"
 #include "octree/geometry/rigid_transform.h"
 #include "octree/geometry/strict_math.h"
+#include "query/shell/probe_source.h"
 #include "query/shell/shell_memory.h"
 #include "query/shell/shell_wrench.h"
 #include "query/shell/sphere_tree.h"
@@ -28,25 +29,6 @@ Error no_memory(const char* what) {
   return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
                     "no memory for %s; free some and try again", what);
 }
-
-// A model that a probe asks. Both have the floating-point mode that queries need.
-class ProbeSource final : public query::ShellSource {
- public:
-  ProbeSource(Probe& probe, const ModelInfo& info) : probe_(probe), info_(info) {}
-
-  ClosestPoint closest_point(const Vec3& query, const QueryOptions& options) noexcept override {
-    return probe_.closest_point(query, options);
-  }
-  Containment contains(const Vec3& query, const QueryOptions& options) noexcept override {
-    return probe_.contains(query, options);
-  }
-  std::uint64_t work_spent() const noexcept override { return probe_.work_spent(); }
-  const ModelInfo& info() const noexcept override { return info_; }
-
- private:
-  Probe& probe_;
-  const ModelInfo& info_;
-};
 
 }  // namespace
 
@@ -85,7 +67,7 @@ Wrench PointShell::wrench(Probe& probe, PointShellState& state, const Pose& pose
   const auto transform = RigidTransform::of(pose);
   if (!transform || !query::is_valid(options)) return {};
   query::ShellMemory& memory = *state.memory_;
-  ProbeSource source(probe, *state.info_);
+  query::ProbeSource<Probe> source(probe, *state.info_);
   const Wrench wrench = query::shell_wrench(source, memory, {*transform}, options);
   const std::size_t count = std::min(memory.hits.size(), contacts.size());
   for (std::size_t i = 0; i < count; ++i) contacts[i] = contact_of(memory.hits[i], *tree_);
