@@ -59,8 +59,8 @@ class FirstKept final : public octree::CorridorSink {
   bool is_cut() const { return is_cut_; }
   double lower() const { return lower_; }
   double upper() const { return upper_; }
-  /// Of the only hit that is kept.
-  double tolerance() const { return tolerance_; }
+  /// Corners of the hit that was kept last.
+  const octree::Triangle& corners() const { return corners_; }
   /// Position beyond which no hit is wanted.
   double last_wanted() const {
     if (!is_full() || (wants_all_ && !is_cut_)) return range_.upper;
@@ -85,10 +85,7 @@ class FirstKept final : public octree::CorridorSink {
     double area2 = 0;
     octree::face_normal(corners, normal, area2);
     hit.normal = {normal.x(), normal.y(), normal.z()};
-    if (kept_.size() > 1) return;
-    const octree::Point direction = way_.line().direction();
-    const double cosine = std::fabs(normal.dot(direction)) / direction.norm();
-    tolerance_ = crossing_tolerance(corners, hit.barycentric, area2, cosine);
+    corners_ = corners;
   }
 
   const ModelLine& way_;
@@ -99,7 +96,7 @@ class FirstKept final : public octree::CorridorSink {
   std::size_t count_ = 0;
   bool is_cut_ = false;
   double lower_ = kInfinity, upper_ = kInfinity;
-  double tolerance_ = 0;
+  octree::Triangle corners_{};
 };
 
 // Converts a hit to the caller's positions and model units.
@@ -143,20 +140,23 @@ LineHits find_hits(const QueryContext& context, const ModelLine& way, bool wants
           is_degraded ? std::min(unread, kept.lower()) : kept.lower(),
           kept.upper(),
           is_degraded,
-          kept.tolerance()};
+          kept.corners()};
 }
 
 // Barycentric coordinates err by about 2^-53 over the square of the height's share, 2^-29, and are
 // at least 2^-8. The crossing of the other way is less than 2^-24 of the edge away, the edges of
 // the triangle at least 2^-20.
-double crossing_tolerance(const octree::Triangle& corners, const Vec3& barycentric, double area2,
-                          double cosine) {
+double crossing_tolerance(const octree::Triangle& corners, const Vec3& barycentric,
+                          double cosine) noexcept {
   constexpr double kMinShare = 0x1p-8, kMinCosine = 0x1p-8, kMinHeight = 0x1p-12;
   constexpr double kTolerance = 0x1p-33;  // 2^-24 over 2 / kMinCosine
   const double edge = std::sqrt(
       std::max({(corners[1] - corners[0]).squaredNorm(), (corners[2] - corners[1]).squaredNorm(),
                 (corners[0] - corners[2]).squaredNorm()}));
   const bool is_inside = std::min({barycentric.x, barycentric.y, barycentric.z}) >= kMinShare;
+  octree::Point normal(0, 0, 1);
+  double area2 = 0;
+  octree::face_normal(corners, normal, area2);
   const bool is_sound = cosine >= kMinCosine && std::sqrt(area2) >= kMinHeight * edge * edge;
   return is_inside && is_sound && edge > octree::kUnresolvedLength ? kTolerance * edge : 0;
 }
@@ -173,7 +173,7 @@ FirstHit first_hit(const QueryContext& context, ModelLine way,
   hit.status = found.is_degraded ? Status::kDegraded
                : is_beyond       ? Status::kBeyondMaxDistance
                                  : Status::kExact;
-  return {hit, found.is_degraded, context.model.scale.out(found.tolerance)};
+  return {hit, found.is_degraded, found.corners};
 }
 
 }  // namespace planetree::query

@@ -14,10 +14,8 @@ struct LineHits {
   /// Bounds on the position of the first hit; infinite if there is none. Before `lower` nothing is
   /// hit, whatever was not read.
   double lower, upper;
-  bool is_degraded = false;  ///< some may lack, because pages or work did
-  /// How far from the way, in the model frame, another one may be and still certainly pass through
-  /// the first triangle; see crossing_tolerance().
-  double tolerance = 0;
+  bool is_degraded = false;    ///< some may lack, because pages or work did
+  octree::Triangle corners{};  ///< of the only hit, if one is kept; model frame
 };
 
 /// Writes the first triangles that a way passes through to `hits`, as Probe::all_hits() states.
@@ -34,16 +32,15 @@ LineHits find_hits(const QueryContext& context, const ModelLine& way, bool wants
 /// what it is compared with.
 ///
 /// barycentric  of the crossing
-/// area2        squared length of the cross product of two edges
 /// cosine       of the angle between way and normal, its magnitude
-double crossing_tolerance(const octree::Triangle& corners, const Vec3& barycentric, double area2,
-                          double cosine);
+double crossing_tolerance(const octree::Triangle& corners, const Vec3& barycentric,
+                          double cosine) noexcept;
 
 /// The first hit, with what a moved ray needs to know.
 struct FirstHit {
   RayHit hit;
-  bool is_degraded = false;  ///< pages or work lacked
-  double tolerance = 0;      ///< model units; see LineHits::tolerance
+  bool is_degraded = false;    ///< pages or work lacked
+  octree::Triangle corners{};  ///< of the triangle, if one is hit; model frame
 };
 
 /// See Probe::first_hit. The rules of find_hits() apply.

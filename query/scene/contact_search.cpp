@@ -5,7 +5,6 @@
 #include "octree/geometry/error_bounds.h"
 #include "octree/geometry/strict_math.h"
 #include "octree/nearest/interval_ends.h"
-#include "query/answer/query_context.h"
 #include "query/scene/scene_model.h"
 #include "query/shell/vectors.h"
 
@@ -41,8 +40,7 @@ SceneProbeState::ContactSearch::ContactSearch(SceneProbeState& scene, const Swee
       view_(scene.view_),
       sweep_(sweep),
       seconds_(seconds),
-      options_(with_defaults(options)),
-      best_index_(view_.size()) {}
+      options_(with_defaults(options)) {}
 
 SceneFirstContact SceneProbeState::ContactSearch::run() noexcept {
   const Vec3 &a = sweep_.from, &b = sweep_.to;
@@ -72,9 +70,8 @@ FirstContact SceneProbeState::ContactSearch::ask(std::size_t index,
   Sweep wider = local.sweep;
   if (local.error > 0) wider.radius = octree::upper_end(wider.radius + local.error);
   ProbeState& probe = scene_.probe(index);
-  const std::uint64_t before = probe.work_spent();
-  FirstContact contact = probe.first_contact(wider, options_);
-  spend(options_, probe.work_spent() - before);
+  FirstContact contact =
+      spending(probe, options_, [&] { return probe.first_contact(wider, options_); });
   if (motion.is_identity() || !(contact.t <= 1)) return contact;
   contact.t_upper = certain_touch(local.sweep, contact.t, contact.at.point,
                                   local.error + (contact.at.upper - contact.at.lower));
@@ -84,18 +81,8 @@ FirstContact SceneProbeState::ContactSearch::ask(std::size_t index,
 
 void SceneProbeState::ContactSearch::offer(std::size_t index,
                                            const FirstContact& contact) noexcept {
-  lower_ = std::min(lower_, contact.t_lower);
-  upper_ = std::min(upper_, contact.t_upper);
   is_free_ = is_free_ && contact.free;
-  if (contact.status == Status::kBeyondMaxDistance)
-    is_beyond_ = true;
-  else if (contact.status != Status::kExact)
-    unproven_ = std::min(unproven_, contact.t_lower);
-  if (best_index_ < view_.size() && contact.t >= best_.t &&
-      !(contact.t == best_.t && view_.id(index) < view_.id(best_index_)))
-    return;
-  best_ = contact;
-  best_index_ = index;
+  first_.offer(contact, view_.id(index));
 }
 
 void SceneProbeState::ContactSearch::offer_nothing_known(std::size_t index) noexcept {
@@ -105,23 +92,11 @@ void SceneProbeState::ContactSearch::offer_nothing_known(std::size_t index) noex
 }
 
 SceneFirstContact SceneProbeState::ContactSearch::finish() noexcept {
-  SceneFirstContact answer{best_};
-  if (best_index_ == view_.size()) {  // all are elsewhere
-    answer.t_lower = kInfinity;
-    answer.free = true;
-    answer.status = answer.at.status = Status::kExact;
-    return answer;
-  }
-  if (best_.t <= 1)
-    answer.instance = view_.id(best_index_);
-  else if (is_beyond_ && answer.status == Status::kExact)
-    answer.status = Status::kBeyondMaxDistance;
-  answer.t_lower = lower_;
-  answer.t_upper = upper_;
+  SceneFirstContact answer{first_.best(), first_.instance()};
+  answer.t_lower = first_.lower();
+  answer.t_upper = first_.upper();
   answer.free = is_free_;
-  if (unproven_ < kInfinity && unproven_ <= std::min(best_.t, upper_))
-    answer.status = Status::kDegraded;
-  answer.at.status = answer.status;
+  answer.status = answer.at.status = first_.status();
   return answer;
 }
 

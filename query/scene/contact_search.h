@@ -1,10 +1,10 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 
 #include "planetree/contact.h"
 #include "planetree/scene.h"
+#include "query/scene/earliest_answer.h"
 #include "query/scene/placement_motion.h"
 #include "query/scene/scene_probe.h"
 
@@ -22,8 +22,6 @@ class SceneProbeState::ContactSearch {
   SceneFirstContact run() noexcept;
 
  private:
-  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
   void visit(std::size_t index, const Vec3& lower, const Vec3& upper) noexcept;
   FirstContact ask(std::size_t index, const PlacementMotion& motion) noexcept;
   void offer(std::size_t index, const FirstContact& contact) noexcept;
@@ -34,12 +32,9 @@ class SceneProbeState::ContactSearch {
   InstanceView& view_;
   const Sweep sweep_;
   const double seconds_;
-  QueryOptions options_;                          // with the work that is left
-  FirstContact best_;                             // of least t
-  std::size_t best_index_;                        // size(): none yet
-  double lower_ = kInfinity, upper_ = kInfinity;  // of t, over all instances
-  double unproven_ = kInfinity;  // t before which the instances that are not exact are free
-  bool is_free_ = true, is_beyond_ = false;
+  QueryOptions options_;  // with the work that is left
+  EarliestAnswer<FirstContact> first_;
+  bool is_free_ = true;  // of all instances
 };
 
 }  // namespace planetree::query

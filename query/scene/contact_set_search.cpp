@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "octree/geometry/strict_math.h"
-#include "query/answer/query_context.h"
 
 namespace planetree::query {
 
@@ -58,18 +57,12 @@ Found SceneProbeState::ContactSetSearch::ask(std::size_t index) noexcept {
   const octree::RigidTransform transform = view_.transform(index);
   const LocalPoint local = to_local(transform, query_);
   ProbeState& probe = scene_.probe(index);
-  const std::uint64_t before = probe.work_spent();
   const auto room = of_instance_.first(found_.size());
-  const Found contacts = probe.find_contacts(local.point, reach(), room, options_);
-  spend(options_, probe.work_spent() - before);
-  const bool asks_side = (options_.parts & (kSide | kNormal)) != 0;
-  const bool is_near = contacts.count > 0 && local.error > 0 && room[0].lower <= local.error;
+  const Found contacts = spending(
+      probe, options_, [&] { return probe.find_contacts(local.point, reach(), room, options_); });
+  const bool is_hidden = contacts.count > 0 && hides_side(local, options_.parts, room[0].lower);
   for (ClosestPoint& contact : room.first(contacts.count)) {
-    // A surface that is nearer than the error may lie between the query and its rounded position.
-    if (is_near && asks_side) {
-      contact.side = Side::kUnknown;
-      contact.status = Status::kDegraded;
-    }
+    if (is_hidden) forget_side(contact);
     to_world(transform, local.error, contact);
   }
   return contacts;

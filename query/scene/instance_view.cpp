@@ -150,7 +150,7 @@ std::size_t InstanceView::nearest() const noexcept {
 }
 
 double InstanceView::bound_of(double squared) noexcept {
-  // See keys_box_distances() for the error of the square.
+  // See squared_box_distances() for the error of the square.
   return squared < 0x1p-1000 ? 0 : std::sqrt(squared) * (1 - 0x1p-49);
 }
 

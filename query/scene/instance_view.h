@@ -55,8 +55,8 @@ class InstanceView {
   /// Computes for all instances a lower bound of the t at which a ray enters the box, infinite if
   /// it does not meet the box. The calls below are then about these bounds.
   void compute_entries(const Ray& ray) noexcept;
-  /// Returns the least entry of the instances that are not marked as visited.
-  double least_entry() const noexcept { return least_key(); }
+  /// The entry of an instance that is not visited.
+  double entry(std::size_t index) const noexcept { return keys_[index]; }
   /// Returns bounds of the t at which a ray is in the box of an instance: within [t_min, t_max],
   /// and lower > upper if there is none.
   octree::LineRange range_in_box(std::size_t index, const Ray& ray) const noexcept;

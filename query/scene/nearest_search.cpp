@@ -5,7 +5,6 @@
 #include "octree/geometry/strict_math.h"
 #include "octree/nearest/interval_ends.h"
 #include "query/answer/closest_point.h"
-#include "query/answer/query_context.h"
 
 namespace planetree::query {
 SceneProbeState::NearestSearch::NearestSearch(SceneProbeState& scene, const Vec3& query,
@@ -65,15 +64,10 @@ ClosestPoint SceneProbeState::NearestSearch::ask(std::size_t index, std::uint32_
   options.max_distance =
       local.error == 0 ? max_distance : octree::upper_end(max_distance + local.error);
   ProbeState& probe = scene_.probe(index);
-  const std::uint64_t before = probe.work_spent();
-  ClosestPoint answer = probe.closest_point(local.point, options);
-  spend(options_, probe.work_spent() - before);
-  // A surface that is nearer than the error may lie between the query and its rounded position.
-  if (local.error > 0 && (parts & (kSide | kNormal)) != 0 && answer.lower <= local.error &&
-      answer.status != Status::kBeyondMaxDistance) {
-    answer.side = Side::kUnknown;
-    answer.status = Status::kDegraded;
-  }
+  ClosestPoint answer =
+      spending(probe, options_, [&] { return probe.closest_point(local.point, options); });
+  if (hides_side(local, parts, answer.lower) && answer.status != Status::kBeyondMaxDistance)
+    forget_side(answer);
   to_world(transform, local.error, answer);
   return answer;
 }

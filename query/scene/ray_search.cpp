@@ -46,8 +46,7 @@ SceneProbeState::RaySearch::RaySearch(SceneProbeState& scene, const Ray& ray,
       ray_(ray),
       speed_(upper_length(ray.direction)),
       end_(std::min(ray.t_max, ray.t_min + options.max_distance / speed_)),
-      options_(with_defaults(options)),
-      best_index_(view_.size()) {}
+      options_(with_defaults(options)) {}
 
 SceneRayHit SceneProbeState::RaySearch::run() noexcept {
   // An only instance is asked, so that the scene answers as its model does.
@@ -57,12 +56,9 @@ SceneRayHit SceneProbeState::RaySearch::run() noexcept {
   }
   view_.compute_entries(ray_);
   for (std::size_t index = view_.nearest(); index < view_.size(); index = view_.nearest()) {
-    const double entry = view_.least_entry();
-    if (entry > end_) {
-      is_beyond_ = true;
-      lower_ = std::min(lower_, end_);
-    }
-    if (entry > std::min(best_.t, end_)) break;
+    const double entry = view_.entry(index);
+    if (entry > end_) first_.end_at(end_);
+    if (entry > std::min(first_.best().t, end_)) break;
     view_.mark_visited(index);
     visit(index);
   }
@@ -70,32 +66,23 @@ SceneRayHit SceneProbeState::RaySearch::run() noexcept {
 }
 
 void SceneProbeState::RaySearch::visit(std::size_t index) noexcept {
-  offer(index, view_.is_placed(index) ? ask(index) : nothing_before(ray_.t_min, Status::kDegraded));
-}
-
-// Runs a query within the work that is left.
-template <class Query>
-auto SceneProbeState::RaySearch::limited(ProbeState& probe, const Query& query) noexcept {
-  const std::uint64_t before = probe.work_spent();
-  const auto answer = query(probe, options_);
-  spend(options_, probe.work_spent() - before);
-  return answer;
+  first_.offer(view_.is_placed(index) ? ask(index) : nothing_before(ray_.t_min, Status::kDegraded),
+               view_.id(index));
 }
 
 RayHit SceneProbeState::RaySearch::ask(std::size_t index) noexcept {
   const octree::RigidTransform transform = view_.transform(index);
   if (!transform.is_identity()) return ask_moved(index, transform);
   Ray ray = ray_;
-  ray.t_max = std::min(ray.t_max, upper_);
-  return limited(scene_.probe(index), [&](ProbeState& probe, const QueryOptions& options) {
-    return probe.first_hit(ray, options);
-  });
+  ray.t_max = std::min(ray.t_max, first_.upper());
+  ProbeState& probe = scene_.probe(index);
+  return spending(probe, options_, [&] { return probe.first_hit(ray, options_); });
 }
 
 RayHit SceneProbeState::RaySearch::ask_moved(std::size_t index,
                                              const octree::RigidTransform& transform) noexcept {
   const octree::LineRange range = view_.range_in_box(index, ray_);
-  const double wanted = std::min(end_, upper_);
+  const double wanted = std::min(end_, first_.upper());
   const bool is_beyond = range.upper > end_ && wanted == end_;
   const RayHit nothing = nothing_before(range.upper > wanted ? wanted : kInfinity,
                                         is_beyond ? Status::kBeyondMaxDistance : Status::kExact);
@@ -104,10 +91,10 @@ RayHit SceneProbeState::RaySearch::ask_moved(std::size_t index,
   if (!find_local(transform, range, wanted, local))
     return nothing_before(ray_.t_min, Status::kDegraded);
   ProbeState& probe = scene_.probe(index);
-  const auto contact = limited(probe, [&](ProbeState& asked, QueryOptions options) {
-    options.max_distance = local.length;
-    return asked.first_contact(local.way, options);
-  });
+  QueryOptions options = options_;
+  options.max_distance = local.length;
+  const FirstContact contact =
+      spending(probe, options_, [&] { return probe.first_contact(local.way, options); });
   if (contact.free || contact.status == Status::kBeyondMaxDistance) return nothing;
   RayHit hit = find_hit(probe, local);
   if (contact.status != Status::kExact) hit.status = Status::kDegraded;
@@ -152,20 +139,21 @@ bool SceneProbeState::RaySearch::find_local(const octree::RigidTransform& transf
 // Returns the hit of a ray in the frame of an instance, with positions of the ray in the world.
 RayHit SceneProbeState::RaySearch::find_hit(ProbeState& probe, const LocalRay& local) noexcept {
   if (!is_valid(local.ray)) return nothing_before(0, Status::kDegraded);  // no length is left
-  const FirstHit first = limited(probe, [&](ProbeState& asked, QueryOptions options) {
-    options.max_distance = kInfinity;
-    return asked.find_first_hit(local.ray, options);
-  });
+  QueryOptions options = options_;
+  options.max_distance = kInfinity;
+  const FirstHit first =
+      spending(probe, options_, [&] { return probe.find_first_hit(local.ray, options); });
   RayHit hit = first.hit;
   if (!(hit.t <= 1)) return hit;
   const double lower = between(local.range, hit.t_lower);
   const double upper = between(local.range, std::min(hit.t_upper, 1.0));
   hit.t = std::min(between(local.range, hit.t), local.range.upper);
   hit.t_upper = kInfinity;
-  if (local.error > first.tolerance) return hit;
-  // The crossing is off by less than twice the error over the cosine, see crossing_tolerance().
   const Vec3& direction = local.ray.direction;
   const double cosine = std::fabs(dot(hit.normal, direction)) / upper_length(direction);
+  const double tolerance = crossing_tolerance(first.corners, hit.barycentric, cosine);
+  if (local.error > probe.model().geometry.scale.out(tolerance)) return hit;
+  // The crossing is off by less than twice the error over the cosine, see crossing_tolerance().
   const double off = octree::upper_end(
       2 * local.error / (cosine * speed_) * (1 + octree::kClipMargin) + rounding_in(local.range));
   // It may be before the start of the ray, or behind its end.
@@ -174,29 +162,11 @@ RayHit SceneProbeState::RaySearch::find_hit(ProbeState& probe, const LocalRay& l
   return hit;
 }
 
-void SceneProbeState::RaySearch::offer(std::size_t index, const RayHit& hit) noexcept {
-  lower_ = std::min(lower_, hit.t_lower);
-  upper_ = std::min(upper_, hit.t_upper);
-  if (hit.status == Status::kBeyondMaxDistance)
-    is_beyond_ = true;
-  else if (hit.status != Status::kExact)
-    unproven_ = std::min(unproven_, hit.t_lower);
-  if (best_index_ < view_.size() && hit.t >= best_.t &&
-      !(hit.t == best_.t && view_.id(index) < view_.id(best_index_)))
-    return;
-  best_ = hit;
-  best_index_ = index;
-}
-
 SceneRayHit SceneProbeState::RaySearch::finish() noexcept {
-  SceneRayHit answer{best_};
-  const bool is_hit = best_.t < kInfinity;
-  answer.status = is_beyond_ && !is_hit ? Status::kBeyondMaxDistance : Status::kExact;
-  if (is_hit) answer.instance = view_.id(best_index_);
-  answer.t_lower = lower_;
-  answer.t_upper = is_hit ? upper_ : kInfinity;
-  if (unproven_ < kInfinity && unproven_ <= std::min(best_.t, upper_))
-    answer.status = Status::kDegraded;
+  SceneRayHit answer{first_.best(), first_.instance()};
+  answer.status = first_.status();
+  answer.t_lower = first_.lower();
+  answer.t_upper = first_.is_found() ? first_.upper() : kInfinity;
   return answer;
 }
 

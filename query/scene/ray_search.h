@@ -5,6 +5,7 @@
 
 #include "planetree/contact.h"
 #include "planetree/scene.h"
+#include "query/scene/earliest_answer.h"
 #include "query/scene/scene_probe.h"
 
 namespace planetree::query {
@@ -41,22 +42,15 @@ class SceneProbeState::RaySearch {
   bool find_local(const octree::RigidTransform& transform, const octree::LineRange& range,
                   double wanted, LocalRay& local) const noexcept;
   RayHit find_hit(ProbeState& probe, const LocalRay& local) noexcept;
-  template <class Query>
-  auto limited(ProbeState& probe, const Query& query) noexcept;
-  void offer(std::size_t index, const RayHit& hit) noexcept;
   SceneRayHit finish() noexcept;
 
   SceneProbeState& scene_;
   InstanceView& view_;
   const Ray ray_;
-  double speed_;                                  // upper bound on the length of the direction
-  double end_;                                    // t at which max_distance ends the ray, or t_max
-  QueryOptions options_;                          // with the work that is left
-  RayHit best_;                                   // of least t
-  std::size_t best_index_;                        // size(): none yet
-  double lower_ = kInfinity, upper_ = kInfinity;  // of t, over all instances
-  double unproven_ = kInfinity;  // t before which the instances that are not exact are free
-  bool is_beyond_ = false;
+  double speed_;          // upper bound on the length of the direction
+  double end_;            // t at which max_distance ends the ray, or t_max
+  QueryOptions options_;  // with the work that is left
+  EarliestAnswer<RayHit> first_;
 };
 
 }  // namespace planetree::query

@@ -7,7 +7,6 @@
 #include "octree/nearest/interval_ends.h"
 #include "query/answer/closest_point.h"
 #include "query/answer/model_line.h"
-#include "query/answer/query_context.h"
 #include "query/scene/contact_search.h"
 #include "query/scene/contact_set_search.h"
 #include "query/scene/nearest_search.h"
@@ -92,12 +91,12 @@ Containment SceneProbeState::side_of(std::size_t index, const Vec3& query,
     return {Side::kOutside, Status::kExact};
   const LocalPoint local = to_local(view_.transform(index), query);
   ProbeState& probe = this->probe(index);
-  const std::uint64_t before = probe.work_spent();
-  Containment side = probe.contains(local.point, left);
-  if (local.error > 0 && side.side != Side::kUnknown && is_surface_near(probe, local, left))
-    side = {Side::kUnknown, Status::kDegraded};
-  spend(left, probe.work_spent() - before);
-  return side;
+  return spending(probe, left, [&]() -> Containment {
+    const Containment side = probe.contains(local.point, left);
+    const bool is_hidden =
+        local.error > 0 && side.side != Side::kUnknown && is_surface_near(probe, local, left);
+    return is_hidden ? Containment{Side::kUnknown, Status::kDegraded} : side;
+  });
 }
 
 // Whether the surface may lie between a point and where it would be without rounding.

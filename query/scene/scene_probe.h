@@ -8,6 +8,7 @@
 #include "cache/reader.h"
 #include "planetree/scene.h"
 #include "planetree/scene_shell.h"
+#include "query/answer/query_context.h"
 #include "query/scene/instance_view.h"
 #include "query/scene/scene_state.h"
 
@@ -55,6 +56,23 @@ class SceneProbeState {
 
   ProbeState& probe(std::size_t index) const noexcept {
     return view_.model(index).probe(reader_.index());
+  }
+  /// Runs a query of a probe, and takes its work from what is left.
+  template <class Query>
+  static auto spending(ProbeState& probe, QueryOptions& left, const Query& query) noexcept {
+    const std::uint64_t before = probe.work_spent();
+    const auto answer = query();
+    spend(left, probe.work_spent() - before);
+    return answer;
+  }
+  /// Whether a side cannot be told: a surface that is nearer than the error may lie between the
+  /// query and its rounded position.
+  static bool hides_side(const LocalPoint& local, std::uint32_t parts, double lower) noexcept {
+    return local.error > 0 && (parts & (kSide | kNormal)) != 0 && lower <= local.error;
+  }
+  static void forget_side(ClosestPoint& answer) noexcept {
+    answer.side = Side::kUnknown;
+    answer.status = Status::kDegraded;
   }
   SceneContainment find_side(const Vec3& query, const QueryOptions& options) noexcept;
   Containment side_of(std::size_t index, const Vec3& query, QueryOptions& left) noexcept;
