@@ -60,7 +60,9 @@ std::optional<OpenedScene> OpenedScene::open(const SceneDescription& description
 }
 
 std::size_t OpenedScene::index_of(InstanceId id) const {
-  return static_cast<std::size_t>(std::ranges::find(ids, id) - ids.begin());
+  const auto found = std::ranges::lower_bound(ids, id);
+  const bool is_there = found != ids.end() && *found == id;
+  return is_there ? static_cast<std::size_t>(found - ids.begin()) : ids.size();
 }
 
 }  // namespace planetree::tools

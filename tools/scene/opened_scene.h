@@ -19,7 +19,7 @@ struct SceneFailure {
 /// A scene that a scene file describes. The instances are in the order of the file.
 struct OpenedScene {
   Scene scene;
-  std::vector<InstanceId> ids;
+  std::vector<InstanceId> ids;  ///< ascending, since later instances have greater ones
 
   /// Opens all models and places all instances.
   ///

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
-#include <span>
 #include <utility>
 
 #include "octree/builder/mesh/stream/mesh_text.h"
@@ -75,10 +74,6 @@ class ObjectReader {
   void complain(const std::string& what) {
     if (complaint_.empty())
       complaint_ = fmt::format("{} {}", where_.empty() ? "the file" : where_, what);
-  }
-  /// "instances[3].key"
-  std::string place(const std::string& key) const {
-    return where_.empty() ? key : where_ + "." + key;
   }
   const std::string& complaint() const { return complaint_; }
 
@@ -207,17 +202,11 @@ Result<SceneDescription> parse_scene(std::string_view text, const std::filesyste
 Result<SceneDescription> read_scene(const std::filesystem::path& file) {
   auto input = InputFile::open(file.string());
   if (!input) return input.error();
-  std::string text;
-  std::size_t size = 0;
-  do {
-    text.resize(std::max<std::size_t>(4096, 2 * size));
-    const auto read = input->read(std::as_writable_bytes(std::span(text).subspan(size)));
-    if (!read) return read.error();
-    size += *read;
-  } while (size == text.size() && size < kMaxFileBytes);
-  if (size >= kMaxFileBytes) return bad_input("it is too large for a scene file: 64 MiB or more");
-  text.resize(size);
-  return parse_scene(text, file.parent_path());
+  const auto text = input->front(kMaxFileBytes);
+  if (!text) return text.error();
+  if (text->size() == kMaxFileBytes)
+    return bad_input("it is too large for a scene file: 64 MiB or more");
+  return parse_scene(*text, file.parent_path());
 }
 
 }  // namespace planetree::tools
