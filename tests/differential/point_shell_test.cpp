@@ -20,17 +20,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Points all over a ball of this radius, with normals towards its centre.
-std::vector<ShellPoint> ball_shell(Random& random, std::size_t count, double radius) {
-  std::vector<ShellPoint> points;
-  while (points.size() < count) {
-    const Vec3 at = random.in_cube();
-    const double length = std::sqrt(at.x * at.x + at.y * at.y + at.z * at.z);
-    if (length > 0.2 && length < 1) points.push_back({at * (radius / length), at * (-1 / length)});
-  }
-  return points;
-}
-
 struct Case {
   BuiltModel model;
   std::vector<ShellPoint> points;

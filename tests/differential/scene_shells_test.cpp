@@ -14,17 +14,6 @@
 namespace planetree::oracle {
 namespace {
 
-// Points all over a ball, with normals towards its centre.
-std::vector<ShellPoint> tool_points(Random& random, std::size_t count, double radius) {
-  std::vector<ShellPoint> points;
-  while (points.size() < count) {
-    const Vec3 at = random.in_cube();
-    const double length = std::sqrt(at.x * at.x + at.y * at.y + at.z * at.z);
-    if (length > 0.2 && length < 1) points.push_back({at * (radius / length), at * (-1 / length)});
-  }
-  return points;
-}
-
 // The sum of the true wrenches of all instances, each in its own frame, and what rounding the pose
 // of the tool there may change.
 struct SceneTruth {
@@ -88,7 +77,7 @@ void check_wrenches(std::span<const NastyFamily> families, std::size_t seed) {
   for (int i = 0; i < 4 * test_effort(); ++i) {
     SceneCase scene(random, families);
     const double radius = random.magnitude(-5, 0);
-    const auto points = tool_points(random, 1 + random.below(40), radius);
+    const auto points = ball_shell(random, 1 + random.below(40), radius);
     const PointShell shell = std::move(*PointShell::create(points));
     SceneShellState state =
         std::move(*SceneShellState::create(shell, static_cast<std::uint32_t>(1 + random.below(4))));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "tests/oracle/nasty_models.h"
 #include "tests/oracle/winding.h"
 
 namespace planetree::oracle {
@@ -70,6 +71,16 @@ WrenchTruth wrench_truth(std::span<const Corners> triangles, bool is_watertight,
 
 long double distance_between(const Vec3& a, const Extended& b) {
   return length({a.x - b[0], a.y - b[1], a.z - b[2]});
+}
+
+std::vector<ShellPoint> ball_shell(Random& random, std::size_t count, double radius) {
+  std::vector<ShellPoint> points;
+  while (points.size() < count) {
+    const Vec3 at = random.in_cube();
+    const double length = std::sqrt(at.x * at.x + at.y * at.y + at.z * at.z);
+    if (length > 0.2 && length < 1) points.push_back({at * (radius / length), at * (-1 / length)});
+  }
+  return points;
 }
 
 Quaternion random_rotation(Random& random) {

@@ -30,6 +30,9 @@ WrenchTruth wrench_truth(std::span<const Corners> triangles, bool is_watertight,
 /// The length of the difference.
 long double distance_between(const Vec3& a, const Extended& b);
 
+/// Points all over a ball, with normals towards its centre.
+std::vector<ShellPoint> ball_shell(Random& random, std::size_t count, double radius);
+
 /// A random rotation of length 1, but for rounding.
 Quaternion random_rotation(Random& random);
 
