@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <span>
 #include <vector>
@@ -117,6 +118,23 @@ TEST_F(SceneWays, RaysHitTheFirstInstanceOnTheirWay) {
   EXPECT_NEAR(beyond.t_lower, 0.5, 1e-12);
   EXPECT_EQ(probe.first_hit({{0, 0, 0}, {0, 0, 0}}).status, Status::kBadQuery);
   EXPECT_EQ(probe.first_hit({{0, 0, 0}, {1e-150, 0, 0}}).status, Status::kBadQuery);
+}
+
+// The last one added has the slot of the first one, which is gone.
+TEST_F(SceneWays, GiveTheFirstAddedOfEqualInstances) {
+  Scene scene = make_scene();
+  const InstanceId gone = add(scene, ball_, at(9));
+  const InstanceId first = add(scene, ball_, turned(3, 0.4));
+  add(scene, ball_, turned(3, 0.4));
+  ASSERT_TRUE(scene.remove(gone));
+  add(scene, ball_, turned(3, 0.4));
+  SceneProbe probe = make_probe(scene);
+  EXPECT_EQ(probe.first_hit({{0, 0.1, 0.1}, {1, 0, 0}}).instance, first);
+  EXPECT_EQ(probe.first_contact({{0, 0.1, 0.1}, {4, 0.1, 0.1}, 0.1}).instance, first);
+  std::vector<SceneClosestPoint> found(3);
+  EXPECT_EQ(probe.contacts({1.5, 0.3, -0.2}, 0.6, found).count, 3u);
+  EXPECT_EQ(found[0].instance, first);
+  EXPECT_TRUE(std::ranges::is_sorted(found, {}, &SceneClosestPoint::instance));
 }
 
 // The ball of radius 1 comes to a tool of radius 0.5 that stands still, or moves beside it.
