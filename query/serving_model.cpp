@@ -30,17 +30,20 @@ void fill_grids(ServingModel& serving, cache::Reader& reader) {
 }  // namespace
 
 QueryArena::Needs arena_needs(const storage::FileHeader& header, const OpenLayers& opened,
-                              unsigned readers, std::uint64_t max_grid_bytes) noexcept {
+                              unsigned readers, const TableLimits& limits) noexcept {
   QueryArena::Needs needs;
   needs.readers = readers;
   needs.model_bytes = sizeof(ServingModel);
   needs.probe_bytes = sizeof(ProbeState);
   if (opened.has_side() && header.model.mask_page_count > 0)
     needs.side_grid_bytes = std::min<std::uint64_t>(
-        octree::SideGrid::bytes(header.model.triangle_count), max_grid_bytes);
+        octree::SideGrid::bytes(header.model.triangle_count), limits.grid_bytes);
   if (opened.has_side() && header.model.cap_count > 0)
     needs.side_grid_bytes += octree::CapGrid::kBytes;
-  if (opened.has_field()) needs.field_bytes = field_shape(header.model).bytes();
+  if (opened.has_field()) {
+    const octree::FieldShape shape = field_shape(header.model);
+    needs.field_bytes = shape.thinned(shape.thinning_for(limits.field_bytes)).bytes();
+  }
   return needs;
 }
 
@@ -55,13 +58,16 @@ ServingModelPtr make_serving_model(const storage::FileHeader& header, const Open
 }
 
 Result<LoadedModel> load_model(ServingModel& serving, const storage::PageFile& file,
-                               const OpenLayers& opened, cache::Reader& reader) {
+                               const OpenLayers& opened, cache::Reader& reader,
+                               const TableLimits& limits) {
   if (opened.has_side()) fill_grids(serving, reader);
   if (!opened.has_field()) return LoadedModel{};
-  const auto field = load_field(file, serving.arena.field);
+  const octree::FieldShape shape = field_shape(file.header().model);
+  const std::uint32_t thinning = shape.thinning_for(limits.field_bytes);
+  const auto field = load_field(file, thinning, serving.arena.field);
   if (!field) return field.error();
   ModelGeometry& geometry = serving.geometry;
-  geometry.field.fill(field_shape(file.header().model), field->points,
+  geometry.field.fill(shape.thinned(thinning), field->points,
                       geometry.tree.has_strays || geometry.region.has_walls());
   return LoadedModel{field->is_damaged};
 }

@@ -68,12 +68,17 @@ struct DestroyServingModel {
 };
 using ServingModelPtr = std::unique_ptr<ServingModel, DestroyServingModel>;
 
+/// Maximum sizes of the tables of a model.
+struct TableLimits {
+  /// Of the side grid: it takes the finest level that fits.
+  std::uint64_t grid_bytes = std::numeric_limits<std::uint64_t>::max();
+  /// Of the coarse field: it is thinned as far as that is possible (FieldShape::thinning_for).
+  std::uint64_t field_bytes = std::numeric_limits<std::uint64_t>::max();
+};
+
 /// Returns what the arena of a model needs for so many readers, without contacts and traces.
-///
-/// max_grid_bytes  of the side grid: it takes the finest level that fits
-QueryArena::Needs arena_needs(
-    const storage::FileHeader& header, const OpenLayers& opened, unsigned readers,
-    std::uint64_t max_grid_bytes = std::numeric_limits<std::uint64_t>::max()) noexcept;
+QueryArena::Needs arena_needs(const storage::FileHeader& header, const OpenLayers& opened,
+                              unsigned readers, const TableLimits& limits = {}) noexcept;
 
 /// Makes a model in its arena. load_model() must fill it before queries use it.
 ///
@@ -88,8 +93,10 @@ struct LoadedModel {
 /// Reads what queries need besides pages: the side grid, the cap grid and the coarse field.
 ///
 /// reader  of the model's pages, which are numbered from 0
+/// limits  those of arena_needs()
 /// errors  kNoMemory
 Result<LoadedModel> load_model(ServingModel& serving, const storage::PageFile& file,
-                               const OpenLayers& opened, cache::Reader& reader);
+                               const OpenLayers& opened, cache::Reader& reader,
+                               const TableLimits& limits = {});
 
 }  // namespace planetree::query

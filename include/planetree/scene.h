@@ -57,6 +57,10 @@ struct SceneOptions {
   /// Size of a frame in bytes: a power of two, 4 KiB to 256 KiB. A file with greater pages
   /// (ModelInfo::page_bytes) cannot be added; one with smaller pages takes a whole frame for each.
   std::uint32_t max_page_bytes = 65536;
+  /// Maximum size in bytes of the coarse field of a model in memory. A larger one is thinned: every
+  /// second, third or further point along each axis is kept, at least some 10 along the longest.
+  /// Exact answers do not depend on it. Intervals of other answers are wider.
+  std::uint64_t max_field_bytes = std::uint64_t{640} << 10;
   Locking locking = Locking::kTry;                 ///< as OpenOptions::locking
   EvictionPolicy policy = EvictionPolicy::kClock;  ///< as OpenOptions::policy
   unsigned wait_limit_ms = 10'000;                 ///< as OpenOptions::wait_limit_ms

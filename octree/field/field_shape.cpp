@@ -28,6 +28,21 @@ std::uint64_t max_points(std::uint64_t triangles) {
 
 }  // namespace
 
+FieldShape FieldShape::thinned(std::uint32_t n) const {
+  FieldShape shape = *this;
+  if (count() == 0) return shape;
+  shape.step = step * n;
+  for (std::uint32_t& along : shape.size) along = (along - 1) / n + 1;
+  return shape;
+}
+
+std::uint32_t FieldShape::thinning_for(std::uint64_t max_bytes) const {
+  const auto [least, greatest] = std::minmax_element(size.begin(), size.end());
+  std::uint32_t n = 1;
+  while (thinned(n).bytes() > max_bytes && 10 * (n + 1) < *greatest && n + 1 < *least) ++n;
+  return n;
+}
+
 FieldShape FieldShape::of(const Point& core_lower, const Point& core_upper,
                           std::uint64_t triangles) {
   FieldShape shape;

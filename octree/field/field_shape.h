@@ -56,6 +56,13 @@ struct FieldShape {
     return quantum * Point(stored[0], stored[1], stored[2]);
   }
 
+  /// Returns the shape of every n-th of the points along each axis, from the first on.
+  FieldShape thinned(std::uint32_t n) const;
+  /// Returns the least n for which thinned(n) takes at most so many bytes. The grid loses up to n -
+  /// 1 steps of its upper sides. It must still hold the core, so that n is at most a tenth of the
+  /// cells along the longest edge, where the grid reaches beyond the core.
+  std::uint32_t thinning_for(std::uint64_t max_bytes) const;
+
   /// Returns the shape for a model: a grid over its core, an eighth of its longest edge larger on
   /// each side.
   ///

@@ -13,6 +13,10 @@ namespace {
 // Maximum size of a side grid. The grid of a large model alone has six times as much.
 constexpr std::uint64_t kMaxGridBytes = std::uint64_t{1} << 18;
 
+TableLimits table_limits(const SceneModel::Choices& choices) {
+  return {kMaxGridBytes, choices.max_field_bytes};
+}
+
 std::uint64_t thread_bytes(const SceneModel::Choices& choices) {
   const std::uint64_t for_each =
       sizeof(FetchWorker) + sizeof(QueryingFetchProbe) + choices.readers * FetchWorker::kProbeBytes;
@@ -49,7 +53,7 @@ Result<std::unique_ptr<SceneModel>> SceneModel::open(const std::filesystem::path
 }
 
 QueryArena::Needs SceneModel::needs(const Choices& choices) const noexcept {
-  return arena_needs(file.header(), opened, choices.readers, kMaxGridBytes);
+  return arena_needs(file.header(), opened, choices.readers, table_limits(choices));
 }
 
 ModelMemory SceneModel::memory(const Choices& choices) const noexcept {
@@ -87,7 +91,8 @@ Result<void> SceneModel::join(ScenePager& pager, cache::Reader& loader, const Ch
     serving->contacts = choices.contacts;
     serving->contacts_reader = choices.fetch_threads + 1;
     cache::Reader window = cache.window(loader.index(), *first);
-    if (const auto loaded = load_model(*serving, file, opened, window); !loaded)
+    if (const auto loaded = load_model(*serving, file, opened, window, table_limits(choices));
+        !loaded)
       return loaded.error();
     probes.resize(choices.readers);
     for (unsigned reader = choices.fetch_threads + 1; reader < choices.readers; ++reader)

@@ -25,6 +25,7 @@ struct SceneModel {
   struct Choices {
     std::uint32_t layers = kAllLayers;
     std::uint32_t max_page_bytes = 0;
+    std::uint64_t max_field_bytes = 0;
     unsigned readers = 0;        ///< of the cache: fetch threads, one that loads files, probes
     unsigned fetch_threads = 0;  ///< of them
     Locking locking = Locking::kTry;

@@ -152,6 +152,7 @@ SceneModel::Choices SceneState::choices(std::uint32_t layers) const noexcept {
   SceneModel::Choices choices;
   choices.layers = layers;
   choices.max_page_bytes = options_.max_page_bytes;
+  choices.max_field_bytes = options_.max_field_bytes;
   choices.readers = cache_limits().max_readers;
   choices.fetch_threads = options_.fetch_threads;
   choices.locking = options_.locking;

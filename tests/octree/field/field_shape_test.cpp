@@ -36,6 +36,28 @@ TEST(FieldShape, IsEmptyForSmallModelsAndPoints) {
   EXPECT_GT(FieldShape::of(Point(0, 0, 0), Point(0, 0, 1), 100000).count(), 0u);
 }
 
+TEST(FieldShape, ThinnedHoldsTheCoreAndFits) {
+  const Point lower(-0.7, -0.2, 0.1), upper(0.7, 0.2, 0.6);
+  for (const std::uint64_t triangles : {20000, 600000, 20000000}) {
+    const FieldShape shape = FieldShape::of(lower, upper, triangles);
+    EXPECT_EQ(shape.thinning_for(shape.bytes()), 1u);
+    std::uint32_t last = 1;
+    for (const double share : {0.9, 0.3, 0.1, 0.01, 0.0}) {
+      const auto most = static_cast<std::uint64_t>(share * static_cast<double>(shape.bytes()));
+      const std::uint32_t n = shape.thinning_for(most);
+      const FieldShape thinned = shape.thinned(n);
+      EXPECT_GE(n, last);
+      EXPECT_TRUE(thinned.bytes() <= most || 10 * (n + 1) >= shape.size[0]);
+      EXPECT_TRUE(n == 1 || shape.thinned(n - 1).bytes() > most);
+      const Point end = thinned.lower + thinned.at(thinned.count() - 1);
+      EXPECT_TRUE((end.array() >= upper.array()).all()) << n;
+      EXPECT_EQ(thinned.at(1, 1, 1), shape.at(n, n, n));
+      last = n;
+    }
+    EXPECT_GT(last, 1u);
+  }
+}
+
 // Products of steps and quanta with whole numbers are exact, so that every machine agrees.
 TEST(FieldShape, HasStepsOfFewBits) {
   for (const std::uint64_t triangles : {2000, 77777, 1234567}) {
