@@ -249,6 +249,14 @@ Result<OpenOptions> open_options(const QueryArguments& arguments) {
   return options;
 }
 
+/// Attributes that answers show.
+constexpr std::uint32_t kShown = kKeepColor | kKeepUv | kKeepValue;
+
+Error keeps_nothing() {
+  return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
+                    "the file keeps no attributes; build it with --keep color, uv or value");
+}
+
 std::string output_name(const QueryArguments& arguments) {
   return arguments.output == "-" ? "standard output" : arguments.output.string();
 }
@@ -291,8 +299,8 @@ int run_query(const QueryArguments& arguments, Console& console) {
   if (!options) return console.fail(file, options.error());
   const auto model = open_model(arguments.file, *options, console);
   if (!model) return console.fail(file, model.error());
-  if (arguments.attributes)
-    if (const auto kept = model->triangles({}, {}); !kept) return console.fail(file, kept.error());
+  if (arguments.attributes && (model->info().attributes & kShown) == 0)
+    return console.fail(file, keeps_nothing());
   auto probe = Probe::create(*model);
   if (!probe) return console.fail(file, probe.error());
   if (*trace)

@@ -239,6 +239,12 @@ std::string complaint_of(const QueryArguments& arguments) {
     return "--format ply needs surface points; omit --contains, or add distance to --parts";
   if (arguments.form.format == AnswerFormat::kVtp && !has_points && !arguments.contains)
     return "--format vtp needs points; give --contains, or add distance to --parts";
+  if (arguments.attributes && arguments.form.format == AnswerFormat::kPly)
+    return "--format ply has no attributes; give csv, jsonl, f64, npy or vtp";
+  if (arguments.attributes && !has_points)
+    return "--attributes are those of the nearest triangle; add distance to --parts";
+  if (arguments.attributes && (arguments.layers & kAttributeLayer) == 0)
+    return "--attributes needs the layer attributes; add it to --layers";
   if (arguments.trace == "-") return "--trace needs a file; standard output is for the answers";
   return !arguments.form.signed_distance || has_both
              ? std::string()

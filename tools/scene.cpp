@@ -12,6 +12,7 @@
 #include "planetree/scene.h"
 #include "tools/answer_tally.h"
 #include "tools/answers/placed_point.h"
+#include "tools/cli/file_extension.h"
 #include "tools/cli/progress.h"
 #include "tools/cli/subcommand_options.h"
 #include "tools/points/row_reader.h"
@@ -131,6 +132,17 @@ int answer_points(const SceneArguments& arguments, const OpenedScene& opened, Co
   return SceneRun(arguments, opened, *probe, console).run(**points, *output);
 }
 
+/// Sets the format by its name or else by the output's extension. Returns what is wrong with it.
+std::string take_format(const std::string& name, SceneArguments& arguments) {
+  const std::string extension = lower_extension(arguments.output);
+  if (name.empty() &&
+      (extension == ".f64" || extension == ".npy" || extension == ".ply" || extension == ".vtp"))
+    return "answers of a scene have the formats csv and jsonl; name another output";
+  const bool is_jsonl = name.empty() ? extension == ".jsonl" : name == "jsonl";
+  arguments.form.format = is_jsonl ? AnswerFormat::kJsonLines : AnswerFormat::kCsv;
+  return {};
+}
+
 }  // namespace
 
 int run_scene(const SceneArguments& arguments, Console& console) {
@@ -150,6 +162,7 @@ void add_scene(CLI::App& app, Console& console, std::function<int()>& action) {
     SceneArguments arguments;
     std::filesystem::path points;
     std::uint64_t memory_bytes = 0;
+    std::string format;  // empty: that of the output's extension
   };
   const auto options = std::make_shared<Options>();
   SceneArguments& arguments = options->arguments;
@@ -172,12 +185,10 @@ void add_scene(CLI::App& app, Console& console, std::function<int()>& action) {
   const auto format = subcommand.default_text(
       subcommand.word(
           "--format", {"csv", "jsonl"},
-          [&arguments](const std::string& name) {
-            arguments.form.format = name == "csv" ? AnswerFormat::kCsv : AnswerFormat::kJsonLines;
-          },
+          [options](const std::string& name) { options->format = name; },
           "The columns are those of planetree query, and the position of the instance in the scene "
           "file, from 0"),
-      "csv");
+      "the extension of OUT; csv if it is none of these");
   const auto force = subcommand.flag("--force", arguments.force, "Replace the output if it exists");
   const auto max_error = subcommand.default_text(
       subcommand.length("--max-error", arguments.options.max_error, false,
@@ -200,7 +211,7 @@ void add_scene(CLI::App& app, Console& console, std::function<int()>& action) {
     if (SubcommandOptions::given(points)) options->arguments.points = options->points;
     if (SubcommandOptions::given(memory)) options->arguments.memory_bytes = options->memory_bytes;
     action = [options, &console] { return run_scene(options->arguments, console); };
-    return std::string();
+    return take_format(options->format, options->arguments);
   });
 }
 

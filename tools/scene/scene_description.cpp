@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cinttypes>
 #include <cmath>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
@@ -114,13 +115,17 @@ std::string read_instance(std::size_t index, const Json& json, const SceneDescri
   Quaternion& q = instance.pose.rotation;
   reader.numbers("rotation", {&q.w, &q.x, &q.y, &q.z});
   const double length = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
-  if (!(length > 0x1p-500 && std::isfinite(length)))
-    reader.complain("has a 'rotation' of length 0; give a quaternion w, x, y, z");
+  if (!(length >= 1e-150 && length <= 1e150))
+    reader.complain(
+        "has a 'rotation' whose length is not from 1e-150 to 1e150; give a quaternion "
+        "w, x, y, z");
   // People write few digits.
   if (length != 1) q = {q.w / length, q.x / length, q.y / length, q.z / length};
   Vec3 &at = instance.pose.translation, &linear = instance.twist.linear,
        &angular = instance.twist.angular;
   reader.numbers("translation", {&at.x, &at.y, &at.z});
+  if (!(std::max({std::fabs(at.x), std::fabs(at.y), std::fabs(at.z)}) <= 0x1p500))
+    reader.complain("has a 'translation' with coordinates above 2^500");
   reader.numbers("velocity", {&linear.x, &linear.y, &linear.z});
   reader.numbers("angular_velocity", {&angular.x, &angular.y, &angular.z});
   return reader.complaint();
@@ -169,6 +174,17 @@ std::string read_description(const Json& json, const std::filesystem::path& fold
   return {};
 }
 
+Error not_json(std::string_view text, std::size_t offset) {
+  const std::string_view before = text.substr(0, offset);
+  const auto lines = static_cast<std::uint64_t>(std::ranges::count(before, '\n'));
+  const std::size_t line_begin = before.rfind('\n') + 1;  // 0 in the first line
+  return make_error(ErrorCode::kBadInput, Error::kNowhere, offset,
+                    "line %" PRIu64
+                    ", column %zu: not JSON from here on; a scene file is a JSON "
+                    "object",
+                    lines + 1, offset - line_begin + 1);
+}
+
 }  // namespace
 
 Result<SceneDescription> parse_scene(std::string_view text, const std::filesystem::path& folder) {
@@ -192,8 +208,7 @@ Result<SceneDescription> parse_scene(std::string_view text, const std::filesyste
     return scene;
   } catch (const Json::parse_error& error) {
     if (is_deep) return nested_too_deeply();
-    return make_error(ErrorCode::kBadInput, Error::kNowhere, error.byte == 0 ? 0 : error.byte - 1,
-                      "not JSON from here on; a scene file is a JSON object");
+    return not_json(text, error.byte == 0 ? 0 : error.byte - 1);
   } catch (const Json::exception&) {
     return bad_input("a number of its JSON is out of range");
   }

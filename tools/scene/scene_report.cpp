@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "octree/builder/mesh/stream/mesh_text.h"
 #include "tools/check/file_parts.h"
 #include "tools/cli/layer_words.h"
 #include "tools/cli/size_text.h"
@@ -108,7 +109,7 @@ std::string scene_text(const std::string& file, const SceneDescription& descript
   std::string text = fmt::format(
       "{}: {} instances of {} models in {}\n"
       "  frames {}, models besides pages {}, all else {}\n",
-      file, grouped_count(stats.instances), grouped_count(stats.models),
+      octree::printable(file), grouped_count(stats.instances), grouped_count(stats.models),
       short_bytes(stats.budget_bytes), short_bytes(stats.arena_bytes),
       short_bytes(stats.model_bytes), short_bytes(stats.table_bytes));
   for (const ModelShare& share : shares) {
@@ -116,17 +117,18 @@ std::string scene_text(const std::string& file, const SceneDescription& descript
     text += fmt::format(
         "  {}: {}, {} triangles, {} instances, layers {}\n"
         "    besides pages {}: page table {}, side grid {}, field {}, probes {}, other {}\n",
-        share.model->name, share.model->file.string(), grouped_count(share.triangles),
-        grouped_count(share.instances), layers_text(share.model->layers), short_bytes(memory.total),
-        short_bytes(memory.page_table), short_bytes(memory.side_grid), short_bytes(memory.field),
-        short_bytes(memory.probes), short_bytes(memory.other));
+        octree::printable(share.model->name), octree::printable(share.model->file.string()),
+        grouped_count(share.triangles), grouped_count(share.instances),
+        layers_text(share.model->layers), short_bytes(memory.total), short_bytes(memory.page_table),
+        short_bytes(memory.side_grid), short_bytes(memory.field), short_bytes(memory.probes),
+        short_bytes(memory.other));
     text += left_out_text(share);
   }
   for (std::size_t i = 0; i < opened.ids.size(); ++i) {
     const InstanceDescription& instance = description.instances[i];
     if (!instance.name.empty())
-      text += fmt::format("  instance {}: {}, of {}\n", i, instance.name,
-                          description.models[instance.model].name);
+      text += fmt::format("  instance {}: {}, of {}\n", i, octree::printable(instance.name),
+                          octree::printable(description.models[instance.model].name));
   }
   return text;
 }

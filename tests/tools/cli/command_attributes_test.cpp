@@ -70,10 +70,24 @@ TEST_F(CommandAttributes, AreEmptyWithoutATriangle) {
   EXPECT_EQ(std::count(all.output.begin(), all.output.end(), '\n'), 3);
 }
 
+TEST_F(CommandAttributes, AreRefusedWhereTheyCannotBeShown) {
+  write_square();
+  ASSERT_EQ(build("color").status, 0);
+  const auto refusal = [&](const std::vector<std::string>& more) {
+    const Outcome result = query("0.5 0.5 1\n", more);
+    EXPECT_EQ(result.status, 2);
+    return result.errors;
+  };
+  EXPECT_NE(refusal({"--format", "ply"}).find("has no attributes"), std::string::npos);
+  EXPECT_NE(refusal({"-o", "out.ply"}).find("has no attributes"), std::string::npos);
+  EXPECT_NE(refusal({"--parts", "side"}).find("add distance"), std::string::npos);
+  EXPECT_NE(refusal({"--layers", "distance"}).find("the layer attributes"), std::string::npos);
+}
+
 TEST_F(CommandAttributes, NeedWhatTheFileKeeps) {
   const Outcome none = run({"query", "tree.ptree", "--attributes"}, "0 0 0\n");
   EXPECT_NE(none.status, 0);
-  EXPECT_NE(none.errors.find("--keep"), std::string::npos) << none.errors;
+  EXPECT_NE(none.errors.find("--keep color, uv or value"), std::string::npos) << none.errors;
   write_square();
   const Outcome unknown = build("colour");
   EXPECT_NE(unknown.status, 0);

@@ -107,6 +107,24 @@ TEST_F(SceneCommand, AnswersPointsWithTheInstance) {
   EXPECT_TRUE(json_of(beyond.output)["instance"].is_null());
 }
 
+TEST_F(SceneCommand, ChoosesTheFormatByTheExtension) {
+  EXPECT_EQ(run({"scene", "scene.json", "-", "-o", "out.jsonl"}, "1,2,3\n").status, 0);
+  EXPECT_EQ(text_of("out.jsonl"),
+            run({"scene", "scene.json", "-", "--format", "jsonl"}, "1,2,3\n").output);
+  EXPECT_EQ(run({"scene", "scene.json", "-", "-o", "out.npy"}, "1,2,3\n").status, 2);
+  EXPECT_FALSE(fs::exists("out.npy"));
+}
+
+TEST_F(SceneCommand, ShowsNoControlCharacters) {
+  write("names.json", R"({"format": "planetree-scene", "version": 1,
+    "models": {"a\u001b[31m": {"file": "solid.ptree"}},
+    "instances": [{"model": "a\u001b[31m", "name": "x\ny"}]})");
+  const Outcome result = run({"scene", "names.json"});
+  EXPECT_EQ(result.status, 0) << result.errors;
+  EXPECT_EQ(result.output.find('\x1b'), std::string::npos);
+  EXPECT_NE(result.output.find("instance 0: x?y, of a?[31m\n"), std::string::npos) << result.output;
+}
+
 TEST_F(SceneCommand, NamesTheFileAtFault) {
   write("bad.json", R"({"format": "planetree-scene", "version": 1,
     "models": {"a": {"file": "missing.ptree"}}, "instances": [{"model": "a"}]})");

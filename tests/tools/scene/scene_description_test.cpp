@@ -76,7 +76,8 @@ TEST(SceneDescription, SaysWhatIsWrongAndWhere) {
       {scene_with(kModels, R"({"model": "a", "position": [0, 0, 0]})"),
        "instances[0] has a key 'position'"},
       {scene_with(kModels, R"({"model": "a", "translation": [0, 0]})"), "3 finite numbers"},
-      {scene_with(kModels, R"({"model": "a", "rotation": [0, 0, 0, 0]})"), "length 0"},
+      {scene_with(kModels, R"({"model": "a", "rotation": [0, 0, 0, 0]})"), "1e-150 to 1e150"},
+      {scene_with(kModels, R"({"model": "a", "translation": [1e200, 0, 0]})"), "above 2^500"},
       {scene_with(kModels, R"({"model": "a", "rotation": [1, 0, 0, "0"]})"), "4 finite numbers"},
       {scene_with(R"("models": {"a": {"file": ""}})", R"({"model": "a"})"), "models.a has no file"},
       {scene_with(R"("models": {"a": {"file": "a", "layers": "distances"}})", R"({"model": "a"})"),
@@ -92,9 +93,11 @@ TEST(SceneDescription, SaysWhatIsWrongAndWhere) {
 }
 
 TEST(SceneDescription, NamesThePlaceThatIsNotJson) {
-  const auto scene = parse_scene("{\"format\": planetree}", "");
+  const auto scene = parse_scene("{\n\"format\": planetree}", "");
   ASSERT_FALSE(scene);
-  EXPECT_EQ(scene.error().offset, 11u);
+  EXPECT_EQ(scene.error().offset, 12u);
+  EXPECT_TRUE(std::string(scene.error().text).starts_with("line 2, column 11: not JSON"))
+      << scene.error().text;
 }
 
 }  // namespace
