@@ -35,7 +35,11 @@ std::string figure_html(const std::string& title, const std::string& legend_item
 
 const char* tick_class(const PlotAxis& axis, std::size_t i) {
   constexpr std::size_t kMaxNarrowTicks = 5;
-  return axis.ticks().size() > kMaxNarrowTicks && i % 2 == 1 ? "tick extra" : "tick";
+  constexpr double kMinNarrowGap = 0.1;  // of the axis: less than the width of a text
+  const auto& ticks = axis.ticks();
+  const bool is_close = i > 0 && ticks[i].place - ticks[i - 1].place < kMinNarrowGap;
+  const bool is_extra = i % 2 == 1 && (is_close || ticks.size() > kMaxNarrowTicks);
+  return is_extra ? "tick extra" : "tick";
 }
 
 }  // namespace planetree::tools

@@ -32,7 +32,8 @@ struct PlotFrame {
                                       const std::string& svg);
 
 /// The class of the text of tick `i`. Where there are more ticks than the larger text of narrow
-/// pages has room for, every other loses its text there.
+/// pages has room for, every other loses its text there; so does one that is close to the one
+/// before it.
 [[nodiscard]] const char* tick_class(const PlotAxis& axis, std::size_t i);
 
 }  // namespace planetree::tools

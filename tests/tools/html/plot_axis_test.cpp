@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tools/html/html_text.h"
+#include "tools/html/plot_figure.h"
 
 namespace planetree::tools {
 namespace {
@@ -137,6 +138,16 @@ TEST(PlotAxis, GivesEachNineOfAQuantileTheSameRoom) {
             (std::vector<std::string>{"min", "50 %", "90 %"}));
   EXPECT_EQ(texts_of(PlotAxis::quantiles("title", 8.6e9)),
             (std::vector<std::string>{"min", "99 %", "99.99 %", "99.9999 %", "99.999999 %"}));
+}
+
+// Where the axis has some powers of ten, 50 % is beside min.
+TEST(PlotAxis, DropsOnNarrowPagesTheTextThatIsBesideAnother) {
+  const PlotAxis axis = PlotAxis::quantiles("quantile", 3000);
+  EXPECT_EQ(texts_of(axis), (std::vector<std::string>{"min", "50 %", "90 %", "99 %", "99.9 %"}));
+  std::vector<std::string> kept;
+  for (std::size_t i = 0; i < axis.ticks().size(); ++i)
+    if (std::string(tick_class(axis, i)) == "tick") kept.push_back(axis.ticks()[i].text);
+  EXPECT_EQ(kept, (std::vector<std::string>{"min", "90 %", "99 %", "99.9 %"}));
 }
 
 }  // namespace
