@@ -23,7 +23,6 @@
 namespace planetree::tools {
 namespace {
 
-constexpr std::uint64_t kMemoryBytes = std::uint64_t{256} << 20;
 constexpr std::size_t kChunkPoints = 4096;
 
 int report(const SceneArguments& arguments, const SceneDescription& description,
@@ -102,14 +101,8 @@ class SceneRun {
       json["budget_bytes"] = stats.budget_bytes;
       console_.note(json_line(json));
     }
-    if (stats.quarantined_pages == 0) return kDone;
-    return console_.fail(
-        arguments_.file.string(),
-        make_error(
-            ErrorCode::kDamaged, Error::kNowhere, Error::kNowhere,
-            "%llu pages of its models are unreadable, so that answers are degraded; planetree "
-            "verify finds the file",
-            static_cast<unsigned long long>(stats.quarantined_pages)));
+    const auto error = scene_pages_lost(stats.quarantined_pages);
+    return error ? console_.fail(arguments_.file.string(), *error) : kDone;
   }
 
   const SceneArguments& arguments_;
@@ -148,10 +141,11 @@ std::string take_format(const std::string& name, SceneArguments& arguments) {
 int run_scene(const SceneArguments& arguments, Console& console) {
   const auto description = read_scene(arguments.file);
   if (!description) return console.fail(arguments.file.string(), description.error());
-  const std::uint64_t memory =
-      arguments.memory_bytes.value_or(description->memory_bytes.value_or(kMemoryBytes));
+  SceneOptions options;
+  options.memory_budget_bytes = arguments.memory_bytes.value_or(
+      description->memory_bytes.value_or(options.memory_budget_bytes));
   SceneFailure failure;
-  const auto opened = OpenedScene::open(*description, arguments.file, memory, failure);
+  const auto opened = OpenedScene::open(*description, arguments.file, options, failure);
   if (!opened) return console.fail(failure.file.string(), failure.error);
   if (!arguments.points) return report(arguments, *description, *opened, console);
   return console.finish(answer_points(arguments, *opened, console));

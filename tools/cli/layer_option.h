@@ -12,12 +12,17 @@
 namespace planetree::tools {
 
 /// Declares the option --layers, which sets `layers`. `help` says what the layers are for.
-void add_layers(SubcommandOptions& subcommand, std::uint32_t& layers, const std::string& help);
+/// Returns the option.
+SubcommandOptions::Option add_layers(SubcommandOptions& subcommand, std::uint32_t& layers,
+                                     const std::string& help);
 /// The same, of a subcommand that opens a model.
-void add_open_layers(SubcommandOptions& subcommand, std::uint32_t& layers);
+SubcommandOptions::Option add_open_layers(SubcommandOptions& subcommand, std::uint32_t& layers);
 
 /// Returns the parts of answers that a model tells by a side rule: the distance alone if sides are
 /// unknown because the side layer is not open, else all.
 std::uint32_t parts_told(const Model& model, SideRule rule = SideRule::kOfFile);
+/// The same of a model with these layers open.
+std::uint32_t parts_told(const ModelInfo& info, std::uint32_t open_layers,
+                         SideRule rule = SideRule::kOfFile);
 
 }  // namespace planetree::tools

@@ -2,16 +2,16 @@
 
 #include <algorithm>
 #include <bit>
+#include <cinttypes>
 #include <utility>
 
 #include "storage/file/page_file.h"
 
 namespace planetree::tools {
 
-Result<SceneOptions> options_for(const SceneDescription& description, std::uint64_t memory_bytes,
+Result<SceneOptions> options_for(const SceneDescription& description, const SceneOptions& wanted,
                                  std::filesystem::path& failed_file) {
-  SceneOptions options;
-  options.memory_budget_bytes = memory_bytes;
+  SceneOptions options = wanted;
   options.max_probes = 1;
   options.max_instances = static_cast<std::uint32_t>(description.instances.size());
   options.max_page_bytes = 4096;
@@ -29,9 +29,9 @@ Result<SceneOptions> options_for(const SceneDescription& description, std::uint6
 
 std::optional<OpenedScene> OpenedScene::open(const SceneDescription& description,
                                              const std::filesystem::path& file,
-                                             std::uint64_t memory_bytes, SceneFailure& failure) {
+                                             const SceneOptions& wanted, SceneFailure& failure) {
   failure.file = file;
-  const auto options = options_for(description, memory_bytes, failure.file);
+  const auto options = options_for(description, wanted, failure.file);
   if (!options) {
     failure.error = options.error();
     return std::nullopt;
@@ -63,6 +63,15 @@ std::size_t OpenedScene::index_of(InstanceId id) const {
   const auto found = std::ranges::lower_bound(ids, id);
   const bool is_there = found != ids.end() && *found == id;
   return is_there ? static_cast<std::size_t>(found - ids.begin()) : ids.size();
+}
+
+std::optional<Error> scene_pages_lost(std::uint64_t quarantined_pages) {
+  if (quarantined_pages == 0) return std::nullopt;
+  return make_error(ErrorCode::kDamaged, Error::kNowhere, Error::kNowhere,
+                    "%" PRIu64
+                    " pages of its models are unreadable, so that answers are degraded; planetree "
+                    "verify finds the file",
+                    quarantined_pages);
 }
 
 }  // namespace planetree::tools

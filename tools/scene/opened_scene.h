@@ -23,17 +23,22 @@ struct OpenedScene {
 
   /// Opens all models and places all instances.
   ///
-  /// memory_bytes  budget of the scene
-  /// failure       receives what went wrong if nothing is returned
+  /// wanted   options that the description does not decide, see options_for()
+  /// failure  receives what went wrong if nothing is returned
   static std::optional<OpenedScene> open(const SceneDescription& description,
                                          const std::filesystem::path& file,
-                                         std::uint64_t memory_bytes, SceneFailure& failure);
+                                         const SceneOptions& wanted, SceneFailure& failure);
   /// The position of an instance in the file; ids.size() if it has none.
   std::size_t index_of(InstanceId id) const;
 };
 
-/// Returns the options of a scene whose frames hold the pages of all models, for one probe.
-Result<SceneOptions> options_for(const SceneDescription& description, std::uint64_t memory_bytes,
+/// Returns the options of a scene whose frames hold the pages of all models, for one probe. The
+/// others are those of `wanted`.
+Result<SceneOptions> options_for(const SceneDescription& description, const SceneOptions& wanted,
                                  std::filesystem::path& failed_file);
+
+/// The error to report after the answers if pages were unreadable, so that answers are degraded.
+/// Empty if there were none.
+std::optional<Error> scene_pages_lost(std::uint64_t quarantined_pages);
 
 }  // namespace planetree::tools

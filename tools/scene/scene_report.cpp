@@ -25,7 +25,7 @@ class WholeScene {
                               std::uint64_t budget_bytes) {
     if (!scene_) {
       std::filesystem::path failed;
-      const auto options = options_for(description, budget_bytes, failed);
+      const auto options = options_for(description, {.memory_budget_bytes = budget_bytes}, failed);
       if (!options) return options.error();
       auto scene = Scene::create(*options);
       if (!scene) return scene.error();
