@@ -150,7 +150,8 @@ const std::vector<Layer>& layers() {
       {"tools/shapes", {"tools/cli"}, {}, {"fmt"}},
       {"tools/trace_file", {"tools/cli", "storage/file"}, {"storage/system"}, {}},
       {"tools/session",
-       {"tools/trace_file", "tools/answers", "tools/html", "tools/cli"},
+       {"tools/trace_file", "tools/answers", "tools/html", "tools/cli",
+        "octree/builder/mesh/stream"},
        {"storage/file", "storage/system"},
        with_system({"fmt", "nlohmann"})},
       // A session on a simulated disk replaces the seams of the engine.
@@ -215,9 +216,9 @@ const std::vector<Layer>& layers() {
        {},
        {"fmt", "nlohmann"}},
       {"tools/scene",
-       {"tools/report", "tools/check", "tools/answers", "tools/cli", "octree/builder/mesh/stream",
-        "storage/file"},
-       {"query/file", "octree/attributes", "octree/field", "octree/page", "octree/geometry",
+       {"tools/session", "tools/report", "tools/check", "tools/answers", "tools/cli",
+        "octree/builder/mesh/stream", "octree/geometry", "storage/file"},
+       {"tools/trace_file", "query/file", "octree/attributes", "octree/field", "octree/page",
         "storage/system"},
        {"fmt", "nlohmann"}},
       // The page shows discs of nodes, which no query returns.

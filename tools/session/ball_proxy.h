@@ -1,6 +1,6 @@
 #pragma once
 
-#include "planetree/probe.h"
+#include "tools/session/touch_probe.h"
 
 namespace planetree::tools {
 
@@ -16,9 +16,10 @@ class BallProxy {
  public:
   /// What one tick came to.
   struct Tick {
-    Status status = Status::kExact;  ///< kDegraded if a move was cut short because pages lacked
-    double lag = 0;                  ///< of a degraded tick: length that is not known to be free
-    bool touches = false;            ///< the surface stopped the ball
+    Status status = Status::kExact;     ///< kDegraded if a move was cut short because pages lacked
+    double lag = 0;                     ///< of a degraded tick: length that is not known to be free
+    bool touches = false;               ///< the surface stopped the ball
+    InstanceId instance = kNoInstance;  ///< of a scene: the one that stopped the ball last
   };
 
   /// radius  model units, above 0
@@ -27,14 +28,23 @@ class BallProxy {
 
   /// Puts the ball where it is free: at a place, or so far from it along its normal out of the
   /// solid. Not for real time.
-  void put(Probe& probe, const Vec3& place);
+  void put(TouchProbe probe, const Vec3& place);
   /// Moves the ball towards the device. `options` are those of its queries.
-  Tick follow(Probe& probe, const Vec3& device, const QueryOptions& options) noexcept;
+  Tick follow(TouchProbe probe, const Vec3& device, const QueryOptions& options) noexcept;
+  /// The same where the surface may have moved since the last tick: first the ball gives way to
+  /// what has come nearer than the gap. Where surfaces squeeze it from both sides, it stays in one
+  /// of them. It asks for sides if `options` do.
+  Tick follow_among_moving(TouchProbe probe, const Vec3& device,
+                           const QueryOptions& options) noexcept;
 
   const Vec3& centre() const { return centre_; }
   double radius() const { return radius_; }
 
  private:
+  void give_way(TouchProbe probe, const QueryOptions& options, Tick& tick) noexcept;
+  void advance(TouchProbe probe, const Vec3& device, const QueryOptions& options,
+               Tick& tick) noexcept;
+
   static constexpr int kMaxMoves = 3;  // straight on, along a face, along an edge between two
 
   const double radius_, gap_;

@@ -30,16 +30,19 @@ std::uint32_t in_32_bits(nanoseconds time) noexcept {
   return static_cast<std::uint32_t>(std::clamp<std::int64_t>(time.count(), 0, kMax));
 }
 
-void run_ticks(Probe& probe, TouchTool& tool, std::span<const Vec3> path, nanoseconds start,
-               nanoseconds period, const QueryOptions& options, TouchRecord& record) noexcept {
+void run_ticks(TouchProbe probe, TouchTool& tool, std::span<const Vec3> path, nanoseconds start,
+               nanoseconds period, const QueryOptions& options, const TickAction& begin_tick,
+               TouchRecord& record) noexcept {
   record.rights = become_real_time();
   // One query before the ticks, so that the faults of first accesses are not counted.
+  if (begin_tick) begin_tick(0);
   tool.begin(probe, path.front(), options);
   sleep_until(now());
   const ThreadUsage before = thread_usage();
   for (std::size_t i = 0; i < path.size(); ++i) {
     const nanoseconds due = start + period * static_cast<std::int64_t>(i);
     sleep_until(due);
+    if (begin_tick) begin_tick(i);
     const nanoseconds began = now();
     probe.motion(path[i], velocity_at(path, i, period));
     const ToolAnswer answer = tool.move(probe, path[i], options);
@@ -73,14 +76,16 @@ Vec3 velocity_at(std::span<const Vec3> path, std::size_t tick, nanoseconds perio
   return {(to.x - from.x) * per_second, (to.y - from.y) * per_second, (to.z - from.z) * per_second};
 }
 
-TouchRecord run_touch_session(Probe& probe, TouchTool& tool, std::span<const Vec3> path,
-                              nanoseconds period, std::uint32_t parts) {
+TouchRecord run_touch_session(TouchProbe probe, TouchTool& tool, std::span<const Vec3> path,
+                              nanoseconds period, std::uint32_t parts,
+                              const TickAction& begin_tick) {
   const QueryOptions options{.parts = parts, .wait = Wait::kNever};
   TouchRecord record;
   record.ticks.resize(path.size());
   record.floor_ns.resize(path.size());
   const nanoseconds start = now() + std::chrono::milliseconds(20);
-  std::thread querying([&] { run_ticks(probe, tool, path, start, period, options, record); });
+  std::thread querying(
+      [&] { run_ticks(probe, tool, path, start, period, options, begin_tick, record); });
   std::thread idle([&] { run_idle_thread(start + period / 2, period, record.floor_ns); });
   querying.join();
   idle.join();

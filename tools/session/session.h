@@ -6,9 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "planetree/probe.h"
 #include "planetree/types.h"
 #include "tools/session/real_time.h"
+#include "tools/session/session_path.h"
+#include "tools/session/touch_probe.h"
 #include "tools/session/touch_tool.h"
 
 namespace planetree::tools {
@@ -20,11 +21,18 @@ struct Tick {
   float width = 0;               ///< ToolAnswer::width, model units
   Status status = Status::kExact;
   Side side = Side::kUnknown;
-  bool touches = false;  ///< ToolAnswer::touches
+  bool touches = false;               ///< ToolAnswer::touches
+  InstanceId instance = kNoInstance;  ///< ToolAnswer::instance
 
   /// The tick of an answer, with latencies of 0.
   static Tick of(const ToolAnswer& answer) {
-    return {0, 0, static_cast<float>(answer.width), answer.status, answer.side, answer.touches};
+    return {0,
+            0,
+            static_cast<float>(answer.width),
+            answer.status,
+            answer.side,
+            answer.touches,
+            answer.instance};
   }
 };
 
@@ -44,7 +52,11 @@ Vec3 velocity_at(std::span<const Vec3> path, std::size_t tick,
 /// Runs a session of path.size() ticks. Queries for nearest points have these `parts`. An idle
 /// thread is due half a tick later on the same processor. It does nothing, so that its lateness is
 /// that of the machine.
-TouchRecord run_touch_session(Probe& probe, TouchTool& tool, std::span<const Vec3> path,
-                              std::chrono::nanoseconds period, std::uint32_t parts);
+///
+/// begin_tick  called in the querying thread when a tick is due, before its query; may be empty.
+///             The latency of the tick includes its time.
+TouchRecord run_touch_session(TouchProbe probe, TouchTool& tool, std::span<const Vec3> path,
+                              std::chrono::nanoseconds period, std::uint32_t parts,
+                              const TickAction& begin_tick = {});
 
 }  // namespace planetree::tools

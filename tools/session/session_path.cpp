@@ -22,10 +22,9 @@ double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
 
 class Walk {
  public:
-  Walk(const Model& model, Probe& probe, double step, std::uint64_t seed)
-      : core_lower_(model.info().core_lower),
-        core_upper_(model.info().core_upper),
-        diagonal_(length(sum(core_upper_, core_lower_, -1))),
+  Walk(TouchProbe probe, const PathBox& box, double step, std::uint64_t seed)
+      : box_(box),
+        diagonal_(length(sum(box.upper, box.lower, -1))),
         step_(step * diagonal_),
         probe_(probe),
         random_(seed) {}
@@ -66,9 +65,9 @@ class Walk {
     return from + (to - from) * static_cast<double>(random_() >> 11) * 0x1p-53;
   }
   Vec3 random_point() {
-    const double x = random_between(core_lower_.x, core_upper_.x);
-    const double y = random_between(core_lower_.y, core_upper_.y);
-    return {x, y, random_between(core_lower_.z, core_upper_.z)};
+    const double x = random_between(box_.lower.x, box_.upper.x);
+    const double y = random_between(box_.lower.y, box_.upper.y);
+    return {x, y, random_between(box_.lower.z, box_.upper.z)};
   }
   Vec3 random_direction() {
     for (;;) {
@@ -80,10 +79,10 @@ class Walk {
     }
   }
 
-  const Vec3 core_lower_, core_upper_;
+  const PathBox box_;
   const double diagonal_;
   const double step_;
-  Probe& probe_;
+  TouchProbe probe_;
   std::mt19937_64 random_;
   Vec3 at_;
   Vec3 heading_;
@@ -93,11 +92,17 @@ class Walk {
 
 std::vector<Vec3> touch_path(const Model& model, Probe& probe, TouchMotion motion,
                              std::size_t ticks, std::uint64_t seed) {
-  Walk walk(model, probe, motion == TouchMotion::kScratch ? 1e-3 : 2e-4, seed);
+  return touch_path(probe, PathBox::of(model.info()), motion, ticks, seed);
+}
+
+std::vector<Vec3> touch_path(TouchProbe probe, const PathBox& box, TouchMotion motion,
+                             std::size_t ticks, std::uint64_t seed, const TickAction& begin_tick) {
+  Walk walk(probe, box, motion == TouchMotion::kScratch ? 1e-3 : 2e-4, seed);
   walk.jump();
   std::vector<Vec3> path;
   path.reserve(ticks);
   for (std::size_t tick = 0; tick < ticks; ++tick) {
+    if (begin_tick) begin_tick(tick);
     if (motion != TouchMotion::kTeleport)
       walk.go(tick);
     else if (tick % kTicksAtOnePoint == 0)

@@ -12,6 +12,7 @@
 #include "tools/cli/size_text.h"
 #include "tools/cli/subcommand.h"
 #include "tools/session/sorted.h"
+#include "tools/session/touch_instances.h"
 
 namespace planetree::tools {
 namespace {
@@ -25,6 +26,10 @@ nlohmann::ordered_json in_microseconds(std::vector<std::uint32_t> nanoseconds) {
   for (const auto& [name, share] : kShares) shares[name] = sorted.at(share) / 1e3;
   return shares;
 }
+
+/// What Stats has and SceneStats has not.
+constexpr const char* kOfModelsAlone[] = {"layers", "fetch_requests", "pages_read_ahead",
+                                          "page_trace_dropped", "locked_bytes"};
 
 template <class Field>
 std::vector<std::uint32_t> each(const TouchRecord& record, Field Tick::*field) {
@@ -60,8 +65,10 @@ std::vector<std::uint32_t> refine_ticks(const TouchRecord& record) {
 }
 
 /// What no clock and no system decides.
-nlohmann::ordered_json session_report(const TouchArguments& arguments, const TouchRecord& record,
-                                      const Stats& stats) {
+nlohmann::ordered_json session_report(const TouchArguments& arguments,
+                                      const TouchOutcome& outcome) {
+  const TouchRecord& record = outcome.record;
+  const Stats& stats = outcome.stats;
   // A ball does not ask for sides.
   const auto unknown_sides = std::count_if(
       record.ticks.begin(), record.ticks.end(),
@@ -102,8 +109,9 @@ nlohmann::ordered_json session_report(const TouchArguments& arguments, const Tou
 }
 
 /// What the machine decides.
-nlohmann::ordered_json machine_report(const TouchArguments& arguments, const TouchRecord& record,
-                                      const Stats& stats) {
+nlohmann::ordered_json machine_report(const TouchArguments& arguments,
+                                      const TouchOutcome& outcome) {
+  const TouchRecord& record = outcome.record;
   const std::uint64_t period_ns = 1'000'000'000 / arguments.rate_hz;
   const auto late = std::count_if(record.ticks.begin(), record.ticks.end(),
                                   [&](const Tick& tick) { return tick.latency_ns > period_ns; });
@@ -116,7 +124,7 @@ nlohmann::ordered_json machine_report(const TouchArguments& arguments, const Tou
           {"involuntary_switches", record.usage.involuntary_switches},
           {"fifo", record.rights.fifo},
           {"pinned", record.rights.pinned},
-          {"locked_bytes", stats.locked_bytes},
+          {"locked_bytes", outcome.stats.locked_bytes},
           {"peak_resident_bytes", peak_resident_bytes()}};
 }
 
@@ -148,9 +156,11 @@ std::string machine_words(const TouchRecord& record, const nlohmann::ordered_jso
   text += "latency         " + row(report["latency_us"]) + '\n';
   text += "the query alone " + row(report["query_us"]) + '\n';
   text += "idle thread     " + row(report["floor_us"]) + '\n';
-  text += fmt::format("real-time priority: {}; pinned to one processor: {}; memory locked: {}\n",
-                      granted(record.rights.fifo), granted(record.rights.pinned),
-                      granted(number("locked_bytes") > 0));
+  text += fmt::format("real-time priority: {}; pinned to one processor: {}",
+                      granted(record.rights.fifo), granted(record.rights.pinned));
+  if (report.contains("locked_bytes"))
+    text += fmt::format("; memory locked: {}", granted(number("locked_bytes") > 0));
+  text += '\n';
   text += fmt::format("{} page faults, {} involuntary context switches; ", number("faults"),
                       number("involuntary_switches"));
   return text;
@@ -158,26 +168,27 @@ std::string machine_words(const TouchRecord& record, const nlohmann::ordered_jso
 
 }  // namespace
 
-nlohmann::ordered_json touch_report(const TouchArguments& arguments, const TouchRecord& record,
-                                    const Stats& stats, const PrefetchFigures* prefetch) {
-  nlohmann::ordered_json report = session_report(arguments, record, stats);
+nlohmann::ordered_json touch_report(const TouchArguments& arguments, const TouchOutcome& outcome) {
+  nlohmann::ordered_json report = session_report(arguments, outcome);
   report["deterministic"] = arguments.is_deterministic;
   if (arguments.is_deterministic)
     report["read_latency_us"] = static_cast<double>(arguments.latency_ns) / 1e3;
   else
-    report.update(machine_report(arguments, record, stats));
-  if (prefetch) report["prefetch"] = prefetch_report(*prefetch);
+    report.update(machine_report(arguments, outcome));
+  if (outcome.prefetch) report["prefetch"] = prefetch_report(*outcome.prefetch);
+  if (arguments.is_scene) {
+    for (const char* const key : kOfModelsAlone) report.erase(key);
+    report["instances"] = instances_json(outcome);
+  }
   return report;
 }
 
-std::string touch_json(const TouchArguments& arguments, const TouchRecord& record,
-                       const Stats& stats, const PrefetchFigures* prefetch) {
-  return json_line(touch_report(arguments, record, stats, prefetch));
+std::string touch_json(const TouchArguments& arguments, const TouchOutcome& outcome) {
+  return json_line(touch_report(arguments, outcome));
 }
 
-std::string touch_words(const TouchArguments& arguments, const TouchRecord& record,
-                        const Stats& stats, const PrefetchFigures* prefetch) {
-  const auto report = touch_report(arguments, record, stats, prefetch);
+std::string touch_words(const TouchArguments& arguments, const TouchOutcome& outcome) {
+  const auto report = touch_report(arguments, outcome);
   const auto number = [&](const char* key) { return report[key].get<std::uint64_t>(); };
   std::string text =
       fmt::format("{}: {}, {} ticks at {} Hz, {} held of a budget of {}\n", arguments.file.string(),
@@ -196,13 +207,14 @@ std::string touch_words(const TouchArguments& arguments, const TouchRecord& reco
   if (arguments.radius > 0)
     text += fmt::format("the surface stopped the ball of radius {} in {} ticks\n", arguments.radius,
                         grouped_count(number("touching")));
-  if (!arguments.is_deterministic) text += machine_words(record, report);
+  if (!arguments.is_deterministic) text += machine_words(outcome.record, report);
   text += fmt::format("{} pages read, {} evicted\n", grouped_count(number("pages_read")),
                       grouped_count(number("pages_evicted")));
-  if (prefetch)
+  if (const auto& prefetch = outcome.prefetch)
     text += fmt::format(
         "{} pages prefetched, of which {} used; {:.1f} % of the pages needed were there in time\n",
         grouped_count(prefetch->read), grouped_count(prefetch->used), 100 * prefetch->coverage());
+  if (arguments.is_scene) text += instances_words(arguments, outcome);
   if (!arguments.trace.empty())
     text += fmt::format("{} records dropped from the trace\n", number("page_trace_dropped"));
   return text;

@@ -12,10 +12,12 @@ namespace planetree::tools {
 
 /// Arguments of `planetree touch`.
 struct TouchArguments {
-  std::filesystem::path file;
+  std::filesystem::path file;  ///< the model or, if is_scene, the scene file
+  bool is_scene = false;
   std::uint64_t seconds = 10;
   std::uint64_t rate_hz = 1000;
   std::uint64_t memory_bytes = std::uint64_t{256} << 20;
+  bool memory_is_given = false;
   std::uint32_t layers = kAllLayers;             ///< layers to open
   EvictionPolicy policy = OpenOptions{}.policy;  ///< how the page to evict is chosen
   TouchMotion motion = TouchMotion::kGlide;

@@ -9,7 +9,8 @@ namespace planetree::tools {
 
 std::string touch_command(const TouchArguments& arguments) {
   const TouchArguments defaults;
-  std::string text = "planetree touch " + shell_word(arguments.file.string());
+  std::string text = arguments.is_scene ? "planetree touch --scene " : "planetree touch ";
+  text += shell_word(arguments.file.string());
   const auto add_number = [&text](const char* option, auto value, auto standard) {
     if (value != standard) text += fmt::format(" {} {}", option, value);
   };
@@ -18,7 +19,11 @@ std::string touch_command(const TouchArguments& arguments) {
   };
   add_number("--seconds", arguments.seconds, defaults.seconds);
   add_number("--rate", arguments.rate_hz, defaults.rate_hz);
-  add_number("--memory", arguments.memory_bytes, defaults.memory_bytes);
+  // Without it the scene file decides.
+  if (arguments.is_scene)
+    text += fmt::format(" --memory {}", arguments.memory_bytes);
+  else
+    add_number("--memory", arguments.memory_bytes, defaults.memory_bytes);
   if (arguments.motion != defaults.motion)
     text += fmt::format(" --path {}", name_of(arguments.motion));
   if (arguments.radius > 0) text += fmt::format(" --tool sphere --radius {}", arguments.radius);

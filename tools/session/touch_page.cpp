@@ -15,6 +15,7 @@
 #include "tools/html/html_text.h"
 #include "tools/session/prefetch_html.h"
 #include "tools/session/session_report.h"
+#include "tools/session/touch_instances.h"
 #include "tools/session/touch_plots.h"
 
 namespace planetree::tools {
@@ -184,7 +185,8 @@ std::string memory_section(const TouchArguments& arguments, const TouchJson& rep
   list.add("pages read", count("pages_read"), "from the disk");
   list.add("pages evicted", count("pages_evicted"), "to make room for others");
   list.add("pages prefetched", count("pages_prefetched"), "read for a motion");
-  list.add("pages read ahead", count("pages_read_ahead"), "read while there was nothing to do");
+  if (!arguments.is_scene)
+    list.add("pages read ahead", count("pages_read_ahead"), "read while there was nothing to do");
   list.add("quarantined pages", count("quarantined_pages"), "damaged: the file is at fault");
   if (!arguments.trace.empty())
     list.add("records dropped", count("page_trace_dropped"), "from the trace");
@@ -201,7 +203,9 @@ std::string machine_section(const TouchRecord& record, const TouchJson& report) 
   list.add("involuntary switches", count("involuntary_switches"), "another thread took its place");
   list.add("real-time priority", granted(record.rights.fifo), "SCHED_FIFO");
   list.add("pinned", granted(record.rights.pinned), "to one processor");
-  list.add("locked", short_bytes(number_in(report, "locked_bytes")), "memory that is not swapped");
+  if (report.contains("locked_bytes"))
+    list.add("locked", short_bytes(number_in(report, "locked_bytes")),
+             "memory that is not swapped");
   list.add("peak resident", short_bytes(number_in(report, "peak_resident_bytes")),
            "memory of the whole process");
   return section_html("Machine", list.html());
@@ -209,10 +213,10 @@ std::string machine_section(const TouchRecord& record, const TouchJson& report) 
 
 }  // namespace
 
-std::string touch_page(const TouchArguments& arguments, const TouchRecord& record,
-                       const Stats& stats, const PrefetchFigures* prefetch,
+std::string touch_page(const TouchArguments& arguments, const TouchOutcome& outcome,
                        const std::string& command) {
-  const TouchJson report = touch_report(arguments, record, stats, prefetch);
+  const TouchRecord& record = outcome.record;
+  const TouchJson report = touch_report(arguments, outcome);
   const TouchTimeline timeline(record.ticks, 1'000'000'000 / arguments.rate_hz);
   HtmlPage page;
   page.kind = "planetree touch: a simulated haptic session";
@@ -221,7 +225,8 @@ std::string touch_page(const TouchArguments& arguments, const TouchRecord& recor
   if (!arguments.is_deterministic) page.body += times_section(arguments, record, page);
   page.body += time_section(arguments, timeline, page) + answers_section(arguments, report) +
                memory_section(arguments, report);
-  if (prefetch) page.body += prefetch_section(*prefetch);
+  if (arguments.is_scene) page.body += instances_section(arguments, outcome);
+  if (outcome.prefetch) page.body += prefetch_section(*outcome.prefetch);
   if (!arguments.is_deterministic) page.body += machine_section(record, report);
   page.body += section_html("Command", command_html("To make this page again", command));
   return page_html(page);

@@ -2,10 +2,8 @@
 
 #include <string>
 
-#include "planetree/stats.h"
-#include "tools/session/session.h"
 #include "tools/session/touch_arguments.h"
-#include "tools/trace_file/prefetch_figures.h"
+#include "tools/session/touch_outcome.h"
 
 namespace planetree::tools {
 
@@ -13,10 +11,8 @@ namespace planetree::tools {
 /// machine. Simulated sessions have no times of queries and nothing of the machine. The size of the
 /// page is bounded.
 ///
-/// prefetch  what became of prefetched pages; null: there was no trace
-/// command   what makes the page again, see touch_command()
-std::string touch_page(const TouchArguments& arguments, const TouchRecord& record,
-                       const Stats& stats, const PrefetchFigures* prefetch,
+/// command  what makes the page again, see touch_command()
+std::string touch_page(const TouchArguments& arguments, const TouchOutcome& outcome,
                        const std::string& command);
 
 /// The command that runs the same session and writes the page again, as typed in a shell. Options

@@ -5,37 +5,38 @@
 namespace planetree::tools {
 namespace {
 
-// The gap between ball and surface, as shares of the radius and of the model's longest edge. It
+// The gap between ball and surface, as shares of the radius and of the box's longest edge. It
 // must stay far above rounding.
-constexpr double kGapOfRadius = 1e-4, kGapOfModel = 1e-8;
+constexpr double kGapOfRadius = 1e-4, kGapOfBox = 1e-8;
 
-double longest_edge(const ModelInfo& info) {
-  return std::max({info.core_upper.x - info.core_lower.x, info.core_upper.y - info.core_lower.y,
-                   info.core_upper.z - info.core_lower.z});
+double longest_edge(const PathBox& box) {
+  return std::max(
+      {box.upper.x - box.lower.x, box.upper.y - box.lower.y, box.upper.z - box.lower.z});
 }
 
 }  // namespace
 
-TouchTool::TouchTool(const Model& model, double radius) {
+TouchTool::TouchTool(const PathBox& box, double radius, bool moves) : moves_(moves) {
   if (radius > 0)
-    ball_.emplace(radius,
-                  std::max(kGapOfRadius * radius, kGapOfModel * longest_edge(model.info())));
+    ball_.emplace(radius, std::max(kGapOfRadius * radius, kGapOfBox * longest_edge(box)));
 }
 
-void TouchTool::begin(Probe& probe, const Vec3& place, const QueryOptions& options) {
+void TouchTool::begin(TouchProbe probe, const Vec3& place, const QueryOptions& options) {
   if (ball_)
     ball_->put(probe, place);
   else
     (void)probe.closest_point(place, options);
 }
 
-ToolAnswer TouchTool::move(Probe& probe, const Vec3& place, const QueryOptions& options) noexcept {
+ToolAnswer TouchTool::move(TouchProbe probe, const Vec3& place,
+                           const QueryOptions& options) noexcept {
   if (ball_) {
-    const BallProxy::Tick tick = ball_->follow(probe, place, options);
-    return {tick.lag, tick.status, Side::kUnknown, tick.touches};
+    const BallProxy::Tick tick = moves_ ? ball_->follow_among_moving(probe, place, options)
+                                        : ball_->follow(probe, place, options);
+    return {tick.lag, tick.status, Side::kUnknown, tick.touches, tick.instance};
   }
-  const ClosestPoint answer = probe.closest_point(place, options);
-  return {answer.upper - answer.lower, answer.status, answer.side, false};
+  const SceneClosestPoint answer = probe.closest_point(place, options);
+  return {answer.upper - answer.lower, answer.status, answer.side, false, answer.instance};
 }
 
 }  // namespace planetree::tools

@@ -65,7 +65,7 @@ Result<void> SimulatedSession::open_model() {
   auto probe = Probe::create(*model_);
   if (!probe) return probe.error();
   probe_.emplace(std::move(*probe));
-  tool_.emplace(*model_, options_.radius);
+  tool_.emplace(PathBox::of(model_->info()), options_.radius);
   auto reader = state.claim_reader();
   if (!reader) return reader.error();
   worker_ = std::make_unique<query::FetchWorker>(

@@ -12,6 +12,7 @@
 #include "tests/tools/html/browser.h"
 #include "tests/tools/html/examine_layout.h"
 #include "tests/tools/html/html_counts.h"
+#include "tools/session/touch_instances.h"
 #include "tools/session/touch_page.h"
 #include "tools/session/touch_timeline.h"
 
@@ -56,6 +57,30 @@ Stats sample_stats() {
   return stats;
 }
 
+TouchOutcome sample_outcome(std::size_t ticks, bool is_timed) {
+  TouchOutcome outcome;
+  outcome.record = sample_session(ticks, is_timed);
+  outcome.stats = sample_stats();
+  if (!is_timed) return outcome;
+  outcome.prefetch.emplace();
+  outcome.prefetch->read = 8;
+  outcome.prefetch->used = 6;
+  return outcome;
+}
+
+/// A session in a scene of so many instances. The last one answers a hundred ticks, and each of the
+/// others two, as far as ticks go.
+TouchOutcome sample_scene_outcome(std::size_t ticks, std::size_t instances) {
+  TouchOutcome outcome = sample_outcome(ticks, true);
+  outcome.prefetch.reset();
+  for (std::size_t i = 0; i < instances; ++i)
+    outcome.instances.push_back({InstanceId{10 + i}, i == 0 ? "</td>left" : "", "statue", i == 1});
+  for (std::size_t i = 0; i < ticks; ++i)
+    outcome.record.ticks[i].instance =
+        InstanceId{10 + (i < 100 ? instances - 1 : (i - 100) / 2)};  // some are of none
+  return outcome;
+}
+
 class TouchPageInBrowser : public testing::Test {
  protected:
   void SetUp() override {
@@ -64,12 +89,8 @@ class TouchPageInBrowser : public testing::Test {
   nlohmann::json examined(std::size_t ticks, bool is_deterministic, const std::string& examination,
                           const BrowserWindow& window) {
     const TouchArguments arguments = sample_arguments(is_deterministic);
-    PrefetchFigures prefetch;
-    prefetch.read = 8;
-    prefetch.used = 6;
     const std::string html =
-        touch_page(arguments, sample_session(ticks, !is_deterministic), sample_stats(),
-                   is_deterministic ? nullptr : &prefetch, "planetree");
+        touch_page(arguments, sample_outcome(ticks, !is_deterministic), "planetree");
     BrowserVisit visit = Browser::visit(html, examination, window, folder_ / ".");
     for (const std::string& complaint : visit.complaints) ADD_FAILURE() << complaint;
     for (const std::string& request : visit.requests) ADD_FAILURE() << "asks for " << request;
@@ -149,6 +170,39 @@ TEST_F(TouchPageInBrowser, ShowsFiguresByTheKeyboard) {
   EXPECT_NE(titles.begin()->find("median (latency, us)"), std::string::npos) << *titles.begin();
 }
 
+TEST_F(TouchPageInBrowser, ListsInstancesOfAScene) {
+  TouchArguments arguments = sample_arguments(false);
+  arguments.is_scene = true;
+  const std::string html = touch_page(arguments, sample_scene_outcome(1000, 150), "planetree");
+  BrowserVisit visit = Browser::visit(html, R"js(
+    const table = [...document.querySelectorAll('table')].find((each) =>
+      each.innerText.includes('statue'));
+    return {rows: table.querySelectorAll('tbody tr').length,
+            first: table.querySelector('tbody tr').innerText,
+            second: table.querySelectorAll('tbody tr')[1].innerText,
+            text: document.body.innerText, width: document.documentElement.scrollWidth};)js",
+                                      {390, true}, folder_ / ".");
+  for (const std::string& complaint : visit.complaints) ADD_FAILURE() << complaint;
+  ASSERT_TRUE(visit.report.is_object());
+  EXPECT_EQ(visit.report["rows"], 100);
+  EXPECT_NE(visit.report["first"].get<std::string>().find("149"), std::string::npos);
+  EXPECT_NE(visit.report["second"].get<std::string>().find("</td>left"), std::string::npos);
+  const std::string text = visit.report["text"];
+  EXPECT_NE(text.find("1 of 150 instances move"), std::string::npos);
+  EXPECT_NE(text.find("600 ticks had no instance"), std::string::npos);
+  EXPECT_EQ(text.find("pages read ahead"), std::string::npos) << "scenes do not";
+  EXPECT_LE(visit.report["width"], 390);
+}
+
+TEST(InstanceTally, CountsEachTickOnce) {
+  const TouchOutcome outcome = sample_scene_outcome(1000, 150);
+  const InstanceTally tally(outcome);
+  EXPECT_EQ(tally.ticks()[0], 2u);
+  EXPECT_EQ(tally.ticks()[149], 102u);
+  EXPECT_EQ(tally.none(), 600u);
+  EXPECT_EQ(tally.leading(2), (std::vector<std::size_t>{149, 0}));
+}
+
 TEST(TouchTimeline, CountsEachTickOnce) {
   const TouchRecord record = sample_session(12345, true);
   const TouchTimeline timeline(record.ticks, 1'000'000);
@@ -181,6 +235,14 @@ TEST(TouchCommand, LeavesOutDefaults) {
   EXPECT_EQ(touch_command(arguments),
             "planetree touch 'a b.ptree' --seconds 2 --path scratch --tool sphere --radius 0.5 "
             "--deterministic --latency 1500ns --trace t.trace --html out.html --force");
+}
+
+TEST(TouchCommand, NamesTheMemoryOfAScene) {
+  TouchArguments arguments;
+  arguments.file = "table.json";
+  arguments.is_scene = true;
+  EXPECT_EQ(touch_command(arguments),
+            "planetree touch --scene table.json --memory 268435456 --force");
 }
 
 }  // namespace
