@@ -57,12 +57,13 @@ std::string shape_bytes(const ViewShape& shape) {
     bytes.add(piece.box.lower);
     bytes.add(static_cast<float>(piece.depth));
     bytes.add(piece.box.upper);
-    bytes.add(0.0F);
+    bytes.add(static_cast<float>(piece.instance));
   }
   for (const ShapeTriangle& triangle : shape.triangles) {
     const std::array<float, 9>& at = triangle.corners;
     bytes.add(std::array{at[0], at[1], at[2], static_cast<float>(triangle.page), at[3], at[4],
-                         at[5], static_cast<float>(triangle.depth), at[6], at[7], at[8], 0.0F});
+                         at[5], static_cast<float>(triangle.depth), at[6], at[7], at[8],
+                         static_cast<float>(triangle.instance)});
   }
   return bytes.take();
 }

@@ -1,8 +1,10 @@
 #include "tools/view/shape_reader.h"
 
 #include <algorithm>
+#include <cinttypes>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "octree/geometry/tree_limits.h"
 #include "query/file/scale.h"
@@ -18,6 +20,9 @@ constexpr float kRoundShare = 0.75F;
 constexpr float kSmallestWeight = 0.0007F;
 /// What is not seen may be coarser, by this factor; blocks cost more than nodes, by this one.
 constexpr float kUnseenShare = 0.05F, kBlockShare = 0.7F;
+
+/// How long a request for a shape reads pages. Then it gets what there is.
+constexpr std::chrono::milliseconds kRequestTime{250};
 
 float half_diagonal(const octree::FloatBox& box) {
   return 0.5F * std::sqrt(box.diagonal_squared());
@@ -35,27 +40,40 @@ bool is_seen(const ShapeView& view, const Vec3& from_eye, double distance, doubl
 
 }  // namespace
 
-Result<ShapeReader> ShapeReader::open(const std::filesystem::path& path) {
+Result<FileParts> ShapeReader::open_file(const std::filesystem::path& path) {
   auto parts = FileParts::open(path);
   if (!parts) return parts.error();
   if (!parts->header() || parts->entries().empty())
     return make_error(ErrorCode::kDamaged, Error::kNowhere, Error::kNowhere,
                       "its header cannot be read; see planetree inspect");
-  return ShapeReader(std::move(*parts));
+  return parts;
 }
+
+Result<ShapeReader> ShapeReader::open(const std::filesystem::path& path) {
+  auto parts = open_file(path);
+  if (!parts) return parts.error();
+  std::vector<FileParts> files;
+  files.push_back(*std::move(parts));
+  return ShapeReader(std::move(files), {ShapeInstance()});
+}
+
+ShapeReader::ShapeReader(std::vector<FileParts> files, std::vector<ShapeInstance> instances)
+    : files_(std::move(files)), instances_(std::move(instances)) {}
 
 float ShapeReader::weight_of(const ShapePiece& piece) const {
   const float radius = std::min(half_diagonal(piece.box), piece.disc.radius);
   const float share = octree::LinkFormat::is_leaf(piece.link) ? kBlockShare : 1.0F;
-  if (!view_.has_eye) return share * radius;
+  if (!view_.has_eye)
+    return share * radius * static_cast<float>(instances_[piece.instance].place.scale());
+  const ShapeView& view = views_[piece.instance];
   const auto centre = piece.box.centre();
-  const Vec3 from_eye{double{centre[0]} - view_.eye.x, double{centre[1]} - view_.eye.y,
-                      double{centre[2]} - view_.eye.z};
+  const Vec3 from_eye{double{centre[0]} - view.eye.x, double{centre[1]} - view.eye.y,
+                      double{centre[2]} - view.eye.z};
   const double distance = std::sqrt(dot(from_eye, from_eye)),
                reach = double{half_diagonal(piece.box)};
   const double near = std::max(distance - reach, 0.25 * double{radius});
   const double weight = near > 0 ? double{share * radius} / near : 0;
-  const double seen = is_seen(view_, from_eye, distance, reach) ? 1 : double{kUnseenShare};
+  const double seen = is_seen(view, from_eye, distance, reach) ? 1 : double{kUnseenShare};
   return weight * seen > double{kSmallestWeight} ? static_cast<float>(weight * seen) : 0;
 }
 
@@ -63,7 +81,7 @@ float ShapeReader::weight_of(const ShapePiece& piece) const {
 bool ShapeReader::may_divide(const ShapePiece& piece) const {
   const std::size_t more =
       octree::LinkFormat::is_leaf(piece.link) ? octree::kMaxBlockTriangles : octree::kFanOut;
-  const bool is_root = piece.depth == 0;  // the only piece that has no disc
+  const bool is_root = piece.depth == 0;  // has no disc
   return piece.depth <= octree::kMaxHeight && (is_root || count_ + more - 1 <= view_.discs);
 }
 
@@ -72,12 +90,17 @@ void ShapeReader::start(const ShapeView& view) {
   shape_ = {};
   is_full_ = false;
   threshold_ = std::numeric_limits<float>::max();
-  ShapePiece root;
-  root.link = parts_.header()->model.root_link;
-  root.page = links_.page(root.link);
-  root.weight = std::numeric_limits<float>::infinity();
-  shape_.pieces.push_back(root);
-  count_ = 1;
+  views_.clear();
+  for (const ShapeInstance& instance : instances_) {
+    views_.push_back(instance.place.view_from(view));
+    ShapePiece root;
+    root.link = files_[instance.file].header()->model.root_link;
+    root.page = links_of(instance.file).page(root.link);
+    root.instance = static_cast<std::uint32_t>(shape_.pieces.size());
+    root.weight = std::numeric_limits<float>::infinity();
+    shape_.pieces.push_back(root);
+  }
+  count_ = shape_.pieces.size();
 }
 
 Result<const ViewShape*> ShapeReader::read(const ShapeView& view, std::chrono::milliseconds most) {
@@ -100,7 +123,13 @@ Result<const ViewShape*> ShapeReader::read(const ShapeView& view, std::chrono::m
   return &shape_;
 }
 
-/// Takes the pieces that this round divides out of the shape, page by page.
+Result<std::string> ShapeReader::read_bytes(const ShapeView& view) {
+  const auto shape = read(view, kRequestTime);
+  if (!shape) return shape.error();
+  return shape_bytes(**shape);
+}
+
+/// Takes the pieces that this round divides out of the shape, page by page of each file.
 std::vector<ShapePiece> ShapeReader::take_due() {
   if (is_full_) return {};
   const auto first = std::stable_partition(
@@ -108,8 +137,9 @@ std::vector<ShapePiece> ShapeReader::take_due() {
       [this](const ShapePiece& piece) { return !(piece.weight > threshold_); });
   std::vector<ShapePiece> due(first, shape_.pieces.end());
   shape_.pieces.erase(first, shape_.pieces.end());
-  std::stable_sort(due.begin(), due.end(),
-                   [](const ShapePiece& a, const ShapePiece& b) { return a.page < b.page; });
+  std::stable_sort(due.begin(), due.end(), [this](const ShapePiece& a, const ShapePiece& b) {
+    return std::pair(file_of(a), a.page) < std::pair(file_of(b), b.page);
+  });
   return due;
 }
 
@@ -117,7 +147,9 @@ Result<void> ShapeReader::divide_all(std::vector<ShapePiece> due, Time end) {
   const std::span<const ShapePiece> all(due);
   for (std::size_t first = 0; first < all.size();) {
     std::size_t last = first + 1;
-    while (last < all.size() && all[last].page == all[first].page) ++last;
+    while (last < all.size() && all[last].page == all[first].page &&
+           file_of(all[last]) == file_of(all[first]))
+      ++last;
     if (is_full_ || steady_clock::now() >= end) {
       shape_.pieces.insert(shape_.pieces.end(), all.begin() + static_cast<std::ptrdiff_t>(first),
                            all.end());
@@ -130,20 +162,25 @@ Result<void> ShapeReader::divide_all(std::vector<ShapePiece> due, Time end) {
   return {};
 }
 
-/// Divides pieces that lead to one page, and what becomes of them as far as it is in that page.
+/// Divides pieces that lead to one page of one file, and what becomes of them as far as it is in
+/// that page.
 Result<void> ShapeReader::divide_in_page(std::span<const ShapePiece> due) {
   const std::uint32_t page = due.front().page;
-  if (page >= parts_.first_cap_page() || parts_.load_page(page))
+  FileParts& parts = files_[file_of(due.front())];
+  if (page >= parts.first_cap_page() || parts.load_page(page))
     return make_error(ErrorCode::kDamaged, page, Error::kNowhere,
-                      "it cannot be read; planetree verify says why");
+                      "page %" PRIu32 " of %s cannot be read; planetree verify says why", page,
+                      parts.path().filename().c_str());
   ++shape_.pages_read;
   std::vector<ShapePiece> stack(due.rbegin(), due.rend());
   while (!stack.empty()) {
     const ShapePiece piece = stack.back();
     stack.pop_back();
-    if (!has_record(piece.link))
+    if (!has_record(piece))
       return make_error(ErrorCode::kDamaged, page, Error::kNowhere,
-                        "a link leads to no record of it; planetree verify says more");
+                        "a link leads to no record of page %" PRIu32
+                        " of %s; planetree verify says more",
+                        page, parts.path().filename().c_str());
     if (!may_divide(piece)) {
       is_full_ = true;
       shape_.pieces.push_back(piece);
@@ -156,13 +193,14 @@ Result<void> ShapeReader::divide_in_page(std::span<const ShapePiece> due) {
   return {};
 }
 
-bool ShapeReader::has_record(std::uint32_t link) const {
-  const FrameView frame = parts_.frame();
+bool ShapeReader::has_record(const ShapePiece& piece) const {
+  const FileParts& parts = files_[file_of(piece)];
+  const FrameView frame = parts.frame();
   const octree::FrameHeader& head = frame.header();
-  const std::uint32_t slot = links_.slot(link);
-  if (octree::LinkFormat::is_leaf(link)) {
+  const std::uint32_t slot = links_of(file_of(piece)).slot(piece.link);
+  if (octree::LinkFormat::is_leaf(piece.link)) {
     const auto* const starts =
-        reinterpret_cast<const std::uint64_t*>(parts_.frame_bytes() + octree::kSlotBytes);
+        reinterpret_cast<const std::uint64_t*>(parts.frame_bytes() + octree::kSlotBytes);
     return (starts[slot / 64] >> slot % 64 & 1) != 0;
   }
   return slot >= head.first_node_slot && frame.node_at_slot(slot) < head.node_count &&
@@ -170,16 +208,18 @@ bool ShapeReader::has_record(std::uint32_t link) const {
 }
 
 void ShapeReader::add_children(const ShapePiece& piece, std::vector<ShapePiece>& inner) {
-  const FrameView frame = parts_.frame();
-  const octree::Node& node = frame.node(frame.node_at_slot(links_.slot(piece.link)));
+  const FrameView frame = files_[file_of(piece)].frame();
+  const octree::LinkFormat links = links_of(file_of(piece));
+  const octree::Node& node = frame.node(frame.node_at_slot(links.slot(piece.link)));
   count_ += node.child_count - std::size_t{1};
   for (unsigned child = 0; child < node.child_count; ++child) {
     ShapePiece part;
     part.box = octree::child_box(node, child);
     part.disc = child_disc(node, child);
     part.link = node.link[child];
-    part.page = links_.page(part.link);
+    part.page = links.page(part.link);
     part.depth = static_cast<std::uint16_t>(piece.depth + 1);
+    part.instance = piece.instance;
     part.weight = weight_of(part);
     const bool goes_on = part.page == piece.page && part.weight > threshold_ && !is_full_;
     (goes_on ? inner : shape_.pieces).push_back(part);
@@ -187,14 +227,15 @@ void ShapeReader::add_children(const ShapePiece& piece, std::vector<ShapePiece>&
 }
 
 void ShapeReader::add_triangles(const ShapePiece& piece) {
-  const FrameView frame = parts_.frame();  // has the layout that the view of the block refers to
-  const octree::BlockView block = frame.block(links_.slot(piece.link));
-  const double* const centre = parts_.header()->model.centre;
+  const FileParts& parts = files_[file_of(piece)];
+  const FrameView frame = parts.frame();  // has the layout that the view of the block refers to
+  const octree::BlockView block = frame.block(links_of(file_of(piece)).slot(piece.link));
+  const double* const centre = parts.header()->model.centre;
   count_ += block.triangle_count() - std::size_t{1};
   for (unsigned i = 0; i < block.triangle_count(); ++i) {
     const octree::Triangle corners = block.triangle(i);
     ShapeTriangle& triangle =
-        shape_.triangles.emplace_back(ShapeTriangle{{}, piece.page, piece.depth});
+        shape_.triangles.emplace_back(ShapeTriangle{{}, piece.page, piece.depth, piece.instance});
     for (std::size_t at = 0; at < 9; ++at)
       triangle.corners[at] =
           static_cast<float>(corners[at / 3][static_cast<long>(at % 3)] - centre[at % 3]);

@@ -18,7 +18,7 @@ struct ViewRequest {
   std::vector<std::string_view> origins;  ///< values of all Origin headers
 };
 
-/// From where a shape is looked at, in the frame that ModelSource describes.
+/// From where a shape is looked at, in the frame of shapes: see ShapeFrame.
 struct ShapeView {
   static constexpr std::uint32_t kMaxDiscs = 200'000;
 
