@@ -142,8 +142,7 @@ int run_scene(const SceneArguments& arguments, Console& console) {
   const auto description = read_scene(arguments.file);
   if (!description) return console.fail(arguments.file.string(), description.error());
   SceneOptions options;
-  options.memory_budget_bytes = arguments.memory_bytes.value_or(
-      description->memory_bytes.value_or(options.memory_budget_bytes));
+  options.memory_budget_bytes = description->budget_bytes(arguments.memory_bytes);
   SceneFailure failure;
   const auto opened = OpenedScene::open(*description, arguments.file, options, failure);
   if (!opened) return console.fail(failure.file.string(), failure.error);

@@ -35,6 +35,11 @@ struct SceneDescription {
   std::optional<std::uint64_t> memory_bytes;
   std::vector<ModelDescription> models;        ///< at least one, in the order of the file
   std::vector<InstanceDescription> instances;  ///< at least one
+
+  /// The memory budget that a command uses: what its user wants, or what the file says, or 256 MiB.
+  std::uint64_t budget_bytes(std::optional<std::uint64_t> wanted) const {
+    return wanted.value_or(memory_bytes.value_or(SceneOptions().memory_budget_bytes));
+  }
 };
 
 /// Reads the text of a scene file.

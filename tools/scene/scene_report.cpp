@@ -54,12 +54,6 @@ Result<std::vector<LayerLeftOut>> layers_left_out(const ModelDescription& model)
   return left_out;
 }
 
-Json memory_json(const ModelMemory& memory) {
-  return {{"total", memory.total},         {"page_table", memory.page_table},
-          {"side_grid", memory.side_grid}, {"field", memory.field},
-          {"probes", memory.probes},       {"other", memory.other}};
-}
-
 std::string left_out_text(const ModelShare& share) {
   std::string text;
   for (const LayerLeftOut& layer : share.left_out)
@@ -71,6 +65,12 @@ std::string left_out_text(const ModelShare& share) {
 }
 
 }  // namespace
+
+Json memory_json(const ModelMemory& memory) {
+  return {{"total", memory.total},         {"page_table", memory.page_table},
+          {"side_grid", memory.side_grid}, {"field", memory.field},
+          {"probes", memory.probes},       {"other", memory.other}};
+}
 
 bool measure_shares(const SceneDescription& description, const OpenedScene& opened,
                     std::vector<ModelShare>& shares, SceneFailure& failure) {

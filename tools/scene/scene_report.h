@@ -34,6 +34,9 @@ struct ModelShare {
 bool measure_shares(const SceneDescription& description, const OpenedScene& opened,
                     std::vector<ModelShare>& shares, SceneFailure& failure);
 
+/// What a model takes besides its pages, in bytes by layer.
+nlohmann::ordered_json memory_json(const ModelMemory& memory);
+
 /// The report of a scene as text and as JSON.
 ///
 /// file  the name of the scene file
