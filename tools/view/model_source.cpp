@@ -1,13 +1,12 @@
 #include "tools/view/model_source.h"
 
 #include <algorithm>
-#include <array>
-#include <chrono>
 #include <utility>
 
 #include "octree/geometry/octcode.h"
 #include "tools/simulation/trace_budget.h"
 #include "tools/trace_file/trace_reader.h"
+#include "tools/view/point_answer.h"
 #include "tools/view/view_json.h"
 
 namespace planetree::tools {
@@ -15,9 +14,6 @@ namespace {
 
 /// Words of the page trace of each thread: some seconds of a probe that is dragged.
 constexpr std::uint32_t kTraceWords = 1U << 16;
-/// How long a request for a shape reads pages. Then it returns what there is.
-constexpr std::chrono::milliseconds kShapeTime{250};
-constexpr std::size_t kMaxContacts = 16;
 
 OpenOptions options_with(std::uint64_t memory_bytes) {
   OpenOptions options;
@@ -41,6 +37,7 @@ ModelSource::ModelSource(Model model, Probe probe, ShapeReader shape, std::strin
                          std::uint64_t memory_bytes)
     : name_(std::move(name)),
       memory_bytes_(memory_bytes),
+      parts_((model.stats().layers & kSideLayer) != 0 ? kAllParts : kAllParts & ~kSide),
       model_(std::move(model)),
       probe_(std::move(probe)),
       shape_(std::move(shape)),
@@ -90,25 +87,13 @@ std::string ModelSource::info() {
 
 Result<std::string> ModelSource::shape(const ShapeView& view) {
   const std::lock_guard lock(shaping_);
-  const auto shape = shape_.read(view, kShapeTime);
-  if (!shape) return shape.error();
-  return shape_bytes(**shape);
+  return shape_.read_bytes(view);
 }
 
 std::string ModelSource::answer(const PointQuestion& question) {
-  QueryOptions options;
-  options.wait = Wait::kNever;
-  std::array<ClosestPoint, kMaxContacts> contacts;
-  ClosestPoint answer;
-  Found found;
-  {
-    const std::lock_guard lock(probing_);
-    answer = probe_.closest_point(question.point, options);
-    if (question.within > 0)
-      found = probe_.contacts(question.point, question.within, contacts, options);
-  }
-  return answer_json(answer, std::span(contacts).first(found.count), found.complete,
-                     question.within);
+  const auto placed = [](const ClosestPoint& found) { return PlacedPoint{found}; };
+  const std::lock_guard lock(probing_);
+  return answer_json(ask_at(probe_, question, parts_, placed), question.within);
 }
 
 /// Brings the states of pages up to date.

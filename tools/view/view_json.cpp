@@ -6,30 +6,28 @@
 #include <utility>
 #include <vector>
 
-#include "query/file/scale.h"
 #include "tools/answers/answer_words.h"
 #include "tools/cli/subcommand.h"
+#include "tools/view/shape_place.h"
 
 namespace planetree::tools {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json vector(const Vec3& value) { return {number(value.x), number(value.y), number(value.z)}; }
-
 Json triangle_of(const ClosestPoint& answer) {
   // As text: JavaScript has no 64-bit integers.
   return answer.triangle == kNoTriangle ? Json(nullptr) : Json(std::to_string(answer.triangle));
 }
 
-Json point_json(const ClosestPoint& answer) {
-  return {{"distance", number(answer.distance)},     {"lower", number(answer.lower)},
-          {"upper", number(answer.upper)},           {"point", vector(answer.point)},
-          {"normal", vector(answer.normal)},         {"triangle", triangle_of(answer)},
-          {"feature", feature_word(answer.feature)}, {"side", side_word(answer.side)},
-          {"status", status_word(answer.status)}};
+Json point_json(const PlacedPoint& answer) {
+  Json json = {{"distance", number_json(answer.distance)}, {"lower", number_json(answer.lower)},
+               {"upper", number_json(answer.upper)},       {"point", vector_json(answer.point)},
+               {"normal", vector_json(answer.normal)},     {"triangle", triangle_of(answer)},
+               {"feature", feature_word(answer.feature)},  {"side", side_word(answer.side)},
+               {"status", status_word(answer.status)}};
+  if (answer.instance != PlacedPoint::kNone) json["instance"] = answer.instance;
+  return json;
 }
 
 Json counts_json(const PageActivity::Counts& counts) {
@@ -57,23 +55,27 @@ Json rows_json(const TraceTimeline& timeline, PageSet TraceTimeline::Window::*se
 
 }  // namespace
 
+Json number_json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json vector_json(const Vec3& value) {
+  return {number_json(value.x), number_json(value.y), number_json(value.z)};
+}
+
 std::string info_json(const std::string& name, const ModelInfo& info,
                       const storage::FileHeader& header, const Stats& stats,
                       std::uint64_t memory_bytes) {
-  const query::Scale scale(header.model.scale_exponent);
-  const Vec3 centre = scale.out(
-      octree::Point{header.model.centre[0], header.model.centre[1], header.model.centre[2]});
+  const ShapeFrame frame = ShapeFrame::of(header);
   return json_line({{"file", name},
                     {"triangles", info.triangles},
                     {"watertight", info.watertight()},
                     {"side_rule", info.side_rule == SideRule::kSolid ? "solid" : "sheet"},
                     {"has_side_layer", (stats.layers & kSideLayer) != 0},
-                    {"box_lower", vector(info.box_lower)},
-                    {"box_upper", vector(info.box_upper)},
-                    {"core_lower", vector(info.core_lower)},
-                    {"core_upper", vector(info.core_upper)},
-                    {"centre", vector(centre)},
-                    {"unit", number(scale.out(1.0))},
+                    {"box_lower", vector_json(info.box_lower)},
+                    {"box_upper", vector_json(info.box_upper)},
+                    {"core_lower", vector_json(info.core_lower)},
+                    {"core_upper", vector_json(info.core_upper)},
+                    {"centre", vector_json(frame.centre)},
+                    {"unit", number_json(frame.unit)},
                     {"tree_levels", info.levels},
                     {"nodes", info.nodes},
                     {"blocks", info.blocks},
@@ -84,14 +86,13 @@ std::string info_json(const std::string& name, const ModelInfo& info,
                     {"frames", stats.frames}});
 }
 
-std::string answer_json(const ClosestPoint& answer, std::span<const ClosestPoint> contacts,
-                        bool are_all, double within) {
-  Json json = point_json(answer);
+std::string answer_json(const PointAnswer& answer, double within) {
+  Json json = point_json(answer.nearest);
   Json list = Json::array();
-  for (const ClosestPoint& contact : contacts) list.push_back(point_json(contact));
+  for (const PlacedPoint& contact : answer.contacts) list.push_back(point_json(contact));
   json["contacts"] = std::move(list);
-  json["contacts_within"] = number(within);
-  json["contacts_complete"] = are_all;
+  json["contacts_within"] = number_json(within);
+  json["contacts_complete"] = answer.are_all;
   return json_line(json);
 }
 
