@@ -223,8 +223,9 @@ const std::vector<Layer>& layers() {
        {"fmt", "nlohmann"}},
       // The page shows discs of nodes, which no query returns.
       {"tools/view",
-       {"tools/tune", "tools/simulation", "tools/check", "tools/trace_file", "tools/answers",
-        "tools/cli", "query/file", "octree/page", "octree/geometry", "storage/file"},
+       {"tools/scene", "tools/tune", "tools/simulation", "tools/check", "tools/trace_file",
+        "tools/answers", "tools/cli", "query/file", "octree/page", "octree/geometry",
+        "storage/file"},
        {"tools/session", "tools/html", "tools/arrays", "query", "query/answer", "query/serve",
         "cache", "cache/policy", "octree/mask", "octree/winding", "octree/nearest",
         "octree/traversal", "octree/attributes", "octree/field", "storage/spill", "storage/system"},

@@ -12,6 +12,8 @@ export function text(value, digits = 7) {
   return size < 1e-4 || size >= 1e9 ? value.toExponential(digits - 1) : String(Number(value.toPrecision(digits)));
 }
 
+export const kibText = (bytes) => bytes < 1048576 ? `${(bytes / 1024).toFixed(1)} KiB` : `${(bytes / 1048576).toFixed(1)} MiB`;
+
 export const triple = (vector, digits) => vector.map((value) => text(value, digits)).join(', ');
 
 const kSides = {inside: 'inside', outside: 'outside', on_surface: 'on the surface', unknown: 'side not known'};
@@ -34,11 +36,11 @@ export function fill(list, rows) {
   });
 }
 
-function table(contacts) {
+function table(contacts, nameOf) {
   const element = document.createElement('table');
   element.createCaption().textContent = contacts.length > kContactRows ? `The nearest ${kContactRows} contacts` : 'Contacts';
   const head = element.createTHead().insertRow();
-  for (const word of ['distance', 'triangle', 'status']) {
+  for (const word of ['distance', nameOf ? 'instance' : 'triangle', 'status']) {
     const cell = document.createElement('th');
     cell.scope = 'col';
     cell.textContent = word;
@@ -47,14 +49,17 @@ function table(contacts) {
   const body = element.createTBody();
   for (const contact of contacts.slice(0, kContactRows)) {
     const row = body.insertRow();
-    for (const word of [text(contact.distance), contact.triangle ?? 'none', contact.status])
+    const place = nameOf ? nameOf(contact.instance) : contact.triangle ?? 'none';
+    for (const word of [text(contact.distance), place, contact.status])
       row.insertCell().textContent = word;
   }
   return element;
 }
 
 export class AnswerPanel {
-  constructor() {
+  // nameOf(index): the name of an instance; null: answers are of a model
+  constructor(nameOf) {
+    this.nameOf = nameOf;
     this.list = document.getElementById('answer');
     this.spoken = document.getElementById('spoken');
     this.contacts = document.getElementById('contacts');
@@ -62,8 +67,10 @@ export class AnswerPanel {
   }
 
   show(answer, isFinal) {
+    const instance = this.nameOf && answer.instance !== undefined ? this.nameOf(answer.instance) : null;
     const width = answer.upper === null ? null : answer.upper - answer.lower;
     fill(this.list, [
+      ...(instance === null ? [] : [['instance', instance]]),
       ['distance', text(answer.distance, 10)],
       ['interval', `[${text(answer.lower, 10)}, ${text(answer.upper, 10)}]`],
       ['its width', text(width, 3)],
@@ -74,8 +81,8 @@ export class AnswerPanel {
       ['status', statusText(answer, isFinal)],
       ['contacts', `${answer.contacts.length}${answer.contacts_complete ? '' : ' or more'} within ${text(answer.contacts_within, 4)}`],
     ]);
-    this.contacts.replaceChildren(...(answer.contacts.length > 0 ? [table(answer.contacts)] : []));
-    this.say(`${sideText(answer.side)}, ${text(answer.distance, 5)} from the surface; ` +
+    this.contacts.replaceChildren(...(answer.contacts.length > 0 ? [table(answer.contacts, this.nameOf)] : []));
+    this.say(`${sideText(answer.side)}, ${text(answer.distance, 5)} from the surface${instance === null ? '' : ` of ${instance}`}; ` +
              `certainly between ${text(answer.lower, 5)} and ${text(answer.upper, 5)}; ` +
              `${answer.status.replaceAll('_', ' ')}.`);
   }

@@ -16,7 +16,10 @@ export function sized(canvas) {
 }
 
 export class PagesPanel {
-  constructor() {
+  // hasStates: whether the states of single pages are known
+  constructor(hasStates) {
+    this.hasStates = hasStates;
+    for (const part of document.querySelectorAll('.of-states')) part.hidden = !hasStates;
     this.list = document.getElementById('pages');
     this.strip = document.getElementById('strip');
     this.levels = document.querySelector('#levels tbody');
@@ -30,7 +33,7 @@ export class PagesPanel {
   async update() {
     const stats = await (await fetch('stats')).json();
     this.show(stats);
-    if (stats.changes === this.changes) return;
+    if (!this.hasStates || stats.changes === this.changes) return;
     this.changes = stats.changes;
     const bytes = new Uint8Array(await (await fetch('pages')).arrayBuffer());
     this.states = bytes.subarray(0, bytes.length / 2);
@@ -42,13 +45,18 @@ export class PagesPanel {
     const rows = [
       ['loaded', `${count(stats.loaded)} since the start`],
       ['in memory', `${count(stats.resident)}, room for ${count(stats.frames)}`],
-      ['wanted', count(stats.wanted)],
+      ...(this.hasStates ? [['wanted', count(stats.wanted)]] : []),
       ['evicted', count(stats.evicted)],
     ];
-    for (const part of stats.parts)
-      if (part.pages > 0) rows.push([`of the ${part.name}`, `${count(part.resident)} of ${count(part.pages)}`]);
+    if (this.hasStates) this.showStates(stats, rows);
+    else rows.push(['lookups', `${count(stats.page_hits)}, and ${count(stats.page_misses)} that lacked a page`]);
     if (stats.quarantined_pages > 0) rows.push(['damaged', count(stats.quarantined_pages)]);
     fill(this.list, rows);
+  }
+
+  showStates(stats, rows) {
+    for (const part of stats.parts)
+      if (part.pages > 0) rows.push([`of the ${part.name}`, `${count(part.resident)} of ${count(part.pages)}`]);
     this.strip.setAttribute('aria-label', `All pages in the order of the file: ${count(stats.resident)} ` +
       `in memory, ${count(stats.wanted)} wanted, ${count(stats.evicted)} evicted so far`);
     this.showLevels(stats.levels);

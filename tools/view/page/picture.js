@@ -29,7 +29,7 @@ export class Picture {
     stage.prepend(this.canvas);
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(kFieldOfView, 1, 0.001, 100);
-    this.surface = new Surface(this.scene);
+    this.surface = new Surface(this.scene, info.instances);
     this.markers = new Markers(this.scene);
     this.onDrawn = () => {};
     this.onError = () => {};
@@ -84,6 +84,19 @@ export class Picture {
     this.moved();
   }
 
+  // Looks at a box of the model from where the view is reset to.
+  lookAt(lower, upper) {
+    const from = this.fromModel(lower), to = this.fromModel(upper);
+    this.reset();
+    const way = this.camera.position.clone().sub(this.controls.target);
+    this.controls.target.copy(from).add(to).multiplyScalar(0.5);
+    const share = Math.min(1, Math.max(1e-3, to.distanceTo(from) / (2 * this.radius)));
+    this.camera.position.copy(this.controls.target).addScaledVector(way, share);
+    this.isTurned = true;
+    this.controls.update();
+    this.moved();
+  }
+
   setTheme() {
     this.renderer.setClearColor(new THREE.Color().setRGB(...colourOf('--sky'), THREE.SRGBColorSpace));
     this.surface.setColours(colourOf);
@@ -133,6 +146,7 @@ export class Picture {
   }
 
   showAnswer(answer) {
+    if (answer && this.info.instances) this.surface.uniforms.nearest.value = answer.instance ?? -1;
     const position = this.fromModel(this.probe.position);
     if (answer && answer.distance !== null)
       this.markers.answeredBy(position, this.fromModel(answer.point), new THREE.Vector3(...answer.normal),

@@ -2,6 +2,7 @@
 
 import {AnswerPanel, text} from './answer.js';
 import {hasPicture} from './built.js';
+import {InstancesPanel, nameOf} from './instances.js';
 import {PagesPanel} from './pages.js';
 import {Probe} from './probe.js';
 import {showTimeline} from './timeline.js';
@@ -15,6 +16,7 @@ const kLegends = [
   [['front', 'front, where normals point to'], ['back', 'back']],
   [['ramp', 'from the root to the finest level drawn']],
   [['resident', 'page in memory'], ['wanted', 'wanted'], ['evicted', 'evicted'], ['unread', 'not read']],
+  [],
 ];
 
 function alertOf(error) {
@@ -38,18 +40,20 @@ function showFacts(info) {
   byId('file').textContent = info.file;
   document.title = `${info.file} - planetree view`;
   const size = info.core_upper.map((value, i) => text(value - info.core_lower[i], 4));
+  const count = (number) => number.toLocaleString('en-US');
   byId('facts').textContent = [
-    `${info.triangles.toLocaleString('en-US')} triangles`, info.watertight ? 'watertight' : 'not watertight',
-    `${size.join(' × ')} units`, `${info.pages.toLocaleString('en-US')} pages`,
-    `${(info.memory_bytes / 1048576).toFixed(0)} MiB of memory`].join(' · ');
+    ...(info.instances
+      ? [`${count(info.instances.length)} instances of ${count(info.models.length)} models`, `${count(info.triangles)} triangles`]
+      : [`${count(info.triangles)} triangles`, info.watertight ? 'watertight' : 'not watertight', `${count(info.pages)} pages`]),
+    `${size.join(' × ')} units`, `${(info.memory_bytes / 1048576).toFixed(0)} MiB of memory`].join(' · ');
   byId('stage').setAttribute('aria-label', `The surface of ${info.file} and the probe`);
 }
 
-// Beside the model, as the camera sees it at first.
-function startOf(info) {
+// Beside a box, as the camera sees it at first.
+function placeBeside(lower, upper) {
   const direction = [0.5, 0.38, -0.05];
-  const longest = Math.max(...info.core_upper.map((value, i) => value - info.core_lower[i]));
-  return info.core_lower.map((value, i) => (value + info.core_upper[i]) / 2 + longest * direction[i]);
+  const longest = Math.max(...upper.map((value, i) => value - lower[i]));
+  return lower.map((value, i) => (value + upper[i]) / 2 + longest * direction[i]);
 }
 
 function explain(stage, words) {
@@ -137,13 +141,30 @@ function listenToTools(picture, pages) {
   showLegend(0);
 }
 
+function listInstances(info, picture, probe) {
+  return new InstancesPanel(info, (index) => {
+    const {box_lower: lower, box_upper: upper} = info.instances[index];
+    picture?.lookAt(lower, upper);
+    probe.moveTo(placeBeside(lower, upper));
+  });
+}
+
+// What the data does not have cannot be a colour.
+function offerColours(info) {
+  for (const option of [...byId('colour').options])
+    if (option.value === (info.instances ? '3' : '4')) option.remove();
+}
+
 async function main() {
   const info = await (await fetch('info')).json();
   showFacts(info);
+  offerColours(info);
   const longest = Math.max(...info.core_upper.map((value, i) => value - info.core_lower[i]));
-  const probe = new Probe(startOf(info), longest / 4);
-  const stage = byId('stage'), panel = new AnswerPanel(), pages = new PagesPanel();
+  const probe = new Probe(placeBeside(info.core_lower, info.core_upper), longest / 4);
+  const stage = byId('stage'), pages = new PagesPanel(!info.instances);
+  const panel = new AnswerPanel(info.instances ? (index) => nameOf(info, index) : null);
   const picture = await makePicture(stage, info, probe);
+  const instances = info.instances ? listInstances(info, picture, probe) : null;
   if (picture) listenToTools(picture, pages);
   listenToKeys(stage, picture, probe, info);
   listenToForm(probe);
@@ -151,6 +172,7 @@ async function main() {
   probe.onChange((answer, error) => {
     if (error) return alertOf(error);
     if (answer) panel.show(answer, probe.isGivenUp());
+    if (answer) instances?.mark(answer.instance);
     picture?.showAnswer(answer);
     // Pages come after answers that lacked some.
     if (answer && timer === 0)

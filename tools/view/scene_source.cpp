@@ -1,0 +1,82 @@
+#include "tools/view/scene_source.h"
+
+#include <utility>
+
+#include "tools/view/scene_facts.h"
+#include "tools/view/view_json.h"
+
+namespace planetree::tools {
+namespace {
+
+Result<SceneDescription> read_small_scene(const std::filesystem::path& file) {
+  auto description = read_scene(file);
+  if (!description || description->instances.size() <= SceneSource::kMaxInstances)
+    return description;
+  return make_error(ErrorCode::kUnsupported, Error::kNowhere, Error::kNowhere,
+                    "it has %zu instances, and view shows scenes of up to %zu; view a scene file "
+                    "with fewer of them",
+                    description->instances.size(), SceneSource::kMaxInstances);
+}
+
+}  // namespace
+
+SceneSource::SceneSource(std::string name, SceneDescription description, OpenedScene opened,
+                         SceneProbe probe, SceneLayout layout)
+    : description_(std::move(description)),
+      opened_(std::move(opened)),
+      info_(scene_info_json(name, description_, opened_, layout)),
+      probe_(std::move(probe)),
+      shape_(std::move(layout.files), std::move(layout.instances)) {}
+
+std::unique_ptr<SceneSource> SceneSource::open(const std::filesystem::path& file,
+                                               std::optional<std::uint64_t> memory_bytes,
+                                               SceneFailure& failure) {
+  const auto fail = [&](const Error& error) {
+    failure = {file, error};
+    return nullptr;
+  };
+  auto description = read_small_scene(file);
+  if (!description) return fail(description.error());
+  auto opened =
+      OpenedScene::open(*description, file, description->budget_bytes(memory_bytes), failure);
+  if (!opened) return nullptr;
+  auto probe = SceneProbe::create(opened->scene);
+  if (!probe) return fail(probe.error());
+  SceneLayout layout;
+  if (!layout.read(*description, *opened, failure)) return nullptr;
+  return std::unique_ptr<SceneSource>(new SceneSource(file.filename().string(),
+                                                      *std::move(description), *std::move(opened),
+                                                      *std::move(probe), std::move(layout)));
+}
+
+Result<std::string> SceneSource::shape(const ShapeView& view) {
+  const std::lock_guard lock(shaping_);
+  return shape_.read_bytes(view);
+}
+
+/// Whether the model that answered has an open side layer. Without one, an answer with a side is
+/// degraded even if all pages are in memory.
+bool SceneSource::has_sides(const PlacedPoint& answer) const {
+  if (answer.instance == PlacedPoint::kNone) return true;
+  const ModelInfo& info = **opened_.scene.info(opened_.ids[answer.instance]);
+  const std::size_t model = description_.instances[answer.instance].model;
+  return (info.layers & description_.models[model].layers & kSideLayer) != 0;
+}
+
+std::string SceneSource::answer(const PointQuestion& question) {
+  const auto placed = [this](const SceneClosestPoint& found) {
+    PlacedPoint point{found};
+    if (found.instance != kNoInstance) point.instance = opened_.index_of(found.instance);
+    return point;
+  };
+  const std::lock_guard lock(probing_);
+  PointAnswer answer = ask_at(probe_, question, kAllParts, placed);
+  if (!has_sides(answer.nearest)) answer = ask_at(probe_, question, kAllParts & ~kSide, placed);
+  return answer_json(answer, question.within);
+}
+
+std::string SceneSource::stats() { return scene_stats_json(opened_.scene.stats()); }
+
+std::string SceneSource::timeline() { return timeline_json(nullptr); }
+
+}  // namespace planetree::tools
