@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 
 #include "tools/cli/subcommand.h"
 #include "tools/view/view_server.h"
@@ -15,17 +16,17 @@ namespace planetree::tools {
 
 /// Arguments of `planetree view`.
 struct ViewArguments {
-  std::filesystem::path file;
-  std::filesystem::path trace;  ///< of a session to show; empty: none
-  std::uint64_t memory_bytes = std::uint64_t{256} << 20;
+  std::filesystem::path file;                 ///< of a model or a scene
+  std::filesystem::path trace;                ///< of a session to show; empty: none
+  std::optional<std::uint64_t> memory_bytes;  ///< empty: what the scene file says, or 256 MiB
   ViewPlace place;
   bool no_open = false;
   bool json = false;
   bool quiet = false;
 };
 
-/// Serves the page of a model until the process gets SIGINT or SIGTERM. Returns the exit status.
-/// Blocks these signals in the calling thread meanwhile.
+/// Serves the page of a model or a scene until the process gets SIGINT or SIGTERM. Returns the exit
+/// status. Blocks these signals in the calling thread meanwhile.
 int run_view(const ViewArguments& arguments, Console& console);
 
 /// Adds the subcommand `view` to the command line. If it is given, parsing sets `action` to a call

@@ -38,7 +38,7 @@ std::unique_ptr<SceneSource> SceneSource::open(const std::filesystem::path& file
   auto description = read_small_scene(file);
   if (!description) return fail(description.error());
   auto opened =
-      OpenedScene::open(*description, file, description->budget_bytes(memory_bytes), failure);
+      OpenedScene::open(*description, file, options, failure);
   if (!opened) return nullptr;
   auto probe = SceneProbe::create(opened->scene);
   if (!probe) return fail(probe.error());

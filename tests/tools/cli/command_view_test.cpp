@@ -90,6 +90,44 @@ TEST_F(CommandView, RefusesWhatItCannotShow) {
   EXPECT_EQ(run({"view", "tree.ptree", "--memory", "1K"}).status, kMachineAtFault);
 }
 
+TEST_F(CommandView, ShowsAScene) {
+  write("scene.json", R"({"format": "planetree-scene", "version": 1, "memory": "16M",
+    "models": {"mesh": {"file": "tree.ptree"}},
+    "instances": [{"name": "left", "model": "mesh"},
+                  {"model": "mesh", "translation": [50, 0, 0]}]})");
+  for (const std::string memory : {"16M", "24M"}) {
+    Session session({"scene.json", "--no-open", "--json", "--memory", memory});
+    const Json report = Json::parse(session.line());
+    EXPECT_EQ(report["file"], "scene.json");
+    const std::uint16_t port = report["port"];
+    const std::string page = report["pages"].at(0);
+    const std::string path = page.substr(page.find('/', 7));
+    const std::string info = answer_from(port, "GET " + path + "info HTTP/1.1\r\nHost: 127.0.0.1:" +
+                                                   std::to_string(port) + "\r\n\r\n");
+    const Json facts = Json::parse(info.substr(info.find("\r\n\r\n")));
+    EXPECT_EQ(facts["instances"][0]["name"], "left");
+    EXPECT_EQ(facts["triangles"], 2 * kTriangles);
+    EXPECT_EQ(facts["memory_bytes"], (memory == "16M" ? 16 : 24) << 20);
+    EXPECT_EQ(session.end(SIGTERM), 0);
+  }
+  const Outcome traced = run({"view", "scene.json", "--no-open", "--trace", "mesh.obj"});
+  EXPECT_EQ(traced.status, kCommandLineAtFault);
+  EXPECT_NE(traced.errors.find("leave --trace out"), std::string::npos) << traced.errors;
+}
+
+TEST_F(CommandView, SaysWhichFilesOfASceneAreAtFault) {
+  write("scene.json", R"({"format": "planetree-scene", "version": 1,
+    "models": {"mesh": {"file": "none.ptree"}}, "instances": [{"model": "mesh"}]})");
+  const Outcome outcome = run({"view", "scene.json", "--no-open"});
+  EXPECT_EQ(outcome.status, kCommandLineAtFault);
+  EXPECT_NE(outcome.errors.find("none.ptree"), std::string::npos) << outcome.errors;
+  write("empty.json", "{}");
+  EXPECT_EQ(run({"view", "empty.json", "--no-open"}).status, kDataAtFault);
+  const Outcome neither = run({"view", "mesh.obj", "--no-open"});
+  EXPECT_EQ(neither.status, kDataAtFault);
+  EXPECT_NE(neither.errors.find("neither a .ptree file nor a scene file"), std::string::npos);
+}
+
 TEST_F(CommandView, RefusesBadAddresses) {
   for (const char* address : {"localhost", "127.0.0.1:80", "", "[::1]"}) {
     const Outcome outcome = run({"view", "tree.ptree", "--listen", address});

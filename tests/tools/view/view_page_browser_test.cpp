@@ -7,10 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "tests/tools/cli/command_fixture.h"
 #include "tests/tools/html/browser.h"
+#include "tests/tools/view/scene_fixture.h"
 #include "tools/view/embedded_files.h"
 #include "tools/view/model_source.h"
+#include "tools/view/scene_source.h"
 #include "tools/view/view_server.h"
 
 namespace planetree::tools {
@@ -63,7 +64,7 @@ const drag = async () => {
 try {
   report.answered = await until(() => text('answer').includes('exact'));
   report.hasPicture = Boolean(stage.querySelector('canvas'));
-  if (report.hasPicture) report.drawn = await until(() => text('drawn').endsWith('392 triangles'));
+  if (report.hasPicture) report.drawn = await until(() => text('drawn').match(/(392|400) triangles/));
   report.byKey = await moves(() => press('ArrowRight'));
   report.byOtherKey = await moves(() => press('PageUp'));
   if (report.hasPicture) report.byDrag = await drag();
@@ -72,8 +73,24 @@ try {
     byId('x').dispatchEvent(new Event('input'));
   });
   report.answer = text('answer');
+  report.instances = !byId('instances').hidden;
+  if (report.instances) {
+    const rows = byId('instance-list').tBodies[0].rows, last = rows[rows.length - 1];
+    report.names = [...rows].map((row) => row.cells[0].textContent);
+    report.byButton = await moves(() => last.querySelector('button').click());
+    report.marked = await until(() => last.hasAttribute('aria-current'));
+    report.nearestInstance = text('nearest-instance');
+    report.models = [...byId('model-list').tBodies[0].rows].map((row) => row.textContent);
+    report.answer = text('answer');
+  }
+  report.colours = [...byId('colour').options].map((option) => option.text);
+  if (report.hasPicture) {
+    byId('colour').value = byId('colour').options[byId('colour').options.length - 1].value;
+    byId('colour').dispatchEvent(new Event('change'));
+  }
   report.spoken = await until(() => !text('spoken').startsWith('Waiting')) && text('spoken');
   report.pages = await until(() => text('pages').includes('in memory')) && byId('levels').rows.length;
+  report.states = !byId('levels').hidden && !byId('strip').hidden;
   report.explanation = byId('no-picture').hidden ? '' : text('no-picture');
   report.title = document.title;
   report.timeline = !byId('timeline').hidden;
@@ -91,14 +108,20 @@ const requests = performance.getEntriesByType('resource').map((entry) => entry.n
 document.body.setAttribute('data-visit', encodeURIComponent(JSON.stringify({report, complaints: seen, requests})));
 )js";
 
-class ViewPage : public Command {
+class ViewPage : public SceneFiles {
  protected:
   void SetUp() override {
     if (!Browser::is_here()) GTEST_SKIP() << Browser::kMissing;
-    Command::SetUp();
+    SceneFiles::SetUp();
     auto source = ModelSource::open("tree.ptree", std::uint64_t{64} << 20);
     ASSERT_TRUE(source) << source.error().text;
-    source_ = std::move(*source);
+    model_ = source->get();
+    source_ = *std::move(source);
+  }
+  void open_scene() {
+    SceneFailure failure;
+    source_ = SceneSource::open("scene.json", std::nullopt, failure);
+    ASSERT_TRUE(source_) << failure.error.text;
   }
   static bool has_three() {
     return std::ranges::any_of(embedded_files(),
@@ -127,7 +150,7 @@ class ViewPage : public Command {
     for (const std::string& request : visit.requests) ADD_FAILURE() << "asks for " << request;
     return visit.report;
   }
-  static void expect_used(const nlohmann::json& report) {
+  static void expect_used(const nlohmann::json& report, const std::string& file = "tree.ptree") {
     ASSERT_TRUE(report.is_object());
     EXPECT_EQ(report["answered"], true);
     EXPECT_GT(report["byKey"], 0.0);
@@ -136,13 +159,26 @@ class ViewPage : public Command {
     for (const char* word : {"distance", "interval", "normal", "side", "triangle", "contacts"})
       EXPECT_NE(std::string(report["answer"]).find(word), std::string::npos) << word;
     EXPECT_NE(std::string(report["spoken"]).find("from the surface"), std::string::npos);
-    EXPECT_GE(report["pages"], 2) << "a head and a row";
-    EXPECT_EQ(report["title"], "tree.ptree - planetree view");
+    EXPECT_EQ(report["states"], file == "tree.ptree");
+    EXPECT_EQ(report["instances"], file != "tree.ptree");
+    EXPECT_EQ(report["title"], file + " - planetree view");
     EXPECT_EQ(report["alert"], "");
     EXPECT_EQ(report["unlabelled"], 0);
   }
 
-  std::unique_ptr<ModelSource> source_;
+  static void expect_scene(const nlohmann::json& report) {
+    expect_used(report, "scene.json");
+    EXPECT_EQ(report["names"], Json({"solid #0", "turned", "mesh #2"}));
+    EXPECT_GT(report["byButton"], 1.0);
+    EXPECT_EQ(report["marked"], true);
+    EXPECT_EQ(report["nearestInstance"], "mesh #2");
+    EXPECT_NE(std::string(report["answer"]).find("instancemesh #2"), std::string::npos);
+    ASSERT_EQ(report["models"].size(), 2u);
+    EXPECT_NE(std::string(report["models"][1]).find("distance"), std::string::npos);
+  }
+
+  std::unique_ptr<ViewSource> source_;
+  ModelSource* model_ = nullptr;
 };
 
 TEST_F(ViewPage, ShowsAModelAndMovesTheProbeInWindowsOfAnyWidthInBothThemes) {
@@ -158,7 +194,29 @@ TEST_F(ViewPage, ShowsAModelAndMovesTheProbeInWindowsOfAnyWidthInBothThemes) {
     EXPECT_LE(report["scrollWidth"], width) << "the page scrolls sideways";
     EXPECT_EQ(report["isDark"], is_dark);
     EXPECT_EQ(report["timeline"], false);
+    EXPECT_GE(report["pages"], 2) << "a head and a row";
+    EXPECT_EQ(report["colours"], Json({"surface", "side", "level", "pages in memory"}));
   }
+}
+
+TEST_F(ViewPage, ShowsASceneAndItsInstancesInWindowsOfAnyWidthInBothThemes) {
+  if (!has_three()) GTEST_SKIP() << "built without three.js";
+  ASSERT_NO_FATAL_FAILURE(open_scene());
+  for (const int width : {390, 1440}) {
+    const auto report = used({width, width == 1440, true});
+    ASSERT_NO_FATAL_FAILURE(expect_scene(report));
+    EXPECT_EQ(report["drawn"], true);
+    EXPECT_GT(report["byDrag"], 0.0);
+    EXPECT_LE(report["scrollWidth"], width) << "the page scrolls sideways";
+    EXPECT_EQ(report["colours"], Json({"surface", "side", "level", "instance"}));
+  }
+}
+
+TEST_F(ViewPage, AnswersInASceneWithoutWebGl) {
+  ASSERT_NO_FATAL_FAILURE(open_scene());
+  const auto report = used({1440, false, false}, has_three());
+  expect_scene(report);
+  EXPECT_EQ(report["hasPicture"], false);
 }
 
 TEST_F(ViewPage, AnswersWithoutWebGl) {
@@ -180,7 +238,7 @@ TEST_F(ViewPage, ShowsARecordedSession) {
   ASSERT_EQ(run({"touch", "tree.ptree", "--seconds", "1", "--deterministic", "--trace", "s.trace"})
                 .status,
             kDone);
-  ASSERT_TRUE(source_->read_trace("s.trace"));
+  ASSERT_TRUE(model_->read_trace("s.trace"));
   const auto report = used({1440, true, false}, has_three());
   expect_used(report);
   EXPECT_EQ(report["timeline"], true);
