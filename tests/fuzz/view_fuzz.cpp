@@ -1,15 +1,41 @@
+#include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
+#include "octree/geometry/tree_limits.h"
 #include "tests/fuzz/expectation.h"
 #include "tests/tools/view/sample_source.h"
+#include "tools/view/shape_reader.h"
 #include "tools/view/view_router.h"
 
 namespace planetree::tools {
 namespace {
 
-/// A source that checks that only what the addresses may say reaches it.
+/// The shape of two samples of the format, one of them in two places that are turned and scaled.
+ShapeReader sample_shapes() {
+  const std::filesystem::path folder = PLANETREE_SAMPLES;
+  std::vector<FileParts> files;
+  for (const char* name : {"sphere.ptree", "tube.ptree"}) {
+    auto parts = ShapeReader::open_file(folder / name);
+    expect(parts.has_value());
+    files.push_back(*std::move(parts));
+  }
+  const ShapeFrame ball = ShapeFrame::of(*files[0].header()),
+                   tube = ShapeFrame::of(*files[1].header()), all{{1, 2, 3}, 0.5};
+  std::vector<ShapeInstance> instances = {
+      {0, ShapePlace({}, ball, all)},
+      {1, ShapePlace({{0, 1, 0, 0}, {2, 0, 0}}, tube, all)},
+      {0, ShapePlace({{0, 0, 0.6, 0.8}, {0, 9, 0}}, ball, all)}};
+  return {std::move(files), std::move(instances)};
+}
+
+/// A source that checks that only what the addresses may say reaches it, and reads shapes as a
+/// scene does.
 class CheckedSource final : public ViewSource {
  public:
   std::string info() override { return "{}"; }
@@ -17,7 +43,12 @@ class CheckedSource final : public ViewSource {
     expect(view.discs >= 1 && view.discs <= ShapeView::kMaxDiscs);
     expect(std::isfinite(view.eye.x) && std::isfinite(view.look.z));
     expect(view.cosine >= -1 && view.cosine <= 1);
-    return std::string("shape");
+    const auto shape = shapes_.read(view, std::chrono::milliseconds(20));
+    expect(shape.has_value());
+    const std::size_t least = 3 * std::size_t{octree::kMaxBlockTriangles};  // of the three roots
+    expect((*shape)->size() >= 3 && (*shape)->size() <= std::max<std::size_t>(view.discs, least));
+    for (const ShapePiece& piece : (*shape)->pieces) expect(piece.instance < 3);
+    return shape_bytes(**shape);
   }
   std::string answer(const PointQuestion& question) override {
     expect(std::isfinite(question.point.x) && std::isfinite(question.point.y) &&
@@ -28,6 +59,9 @@ class CheckedSource final : public ViewSource {
   std::string stats() override { return "{}"; }
   std::string pages() override { return {}; }
   std::string timeline() override { return "null"; }
+
+ private:
+  ShapeReader shapes_ = sample_shapes();
 };
 
 /// Takes a line off a text.
