@@ -38,10 +38,10 @@ std::uint32_t parts_told(const Model& model, SideRule rule) {
   return parts_told(model.info(), model.stats().layers, rule);
 }
 
-std::uint32_t parts_told(const ModelInfo& info, std::uint32_t open_layers, SideRule rule) {
+std::uint32_t parts_told(const ModelInfo& info, std::uint32_t layers, SideRule rule) {
   const bool is_sheet = rule == SideRule::kSurface ||
                         (rule == SideRule::kOfFile && info.side_rule == SideRule::kSurface);
-  return is_sheet || (open_layers & kSideLayer) != 0 ? kAllParts : kDistance;
+  return is_sheet || (layers & info.layers & kSideLayer) != 0 ? kAllParts : kDistance;
 }
 
 }  // namespace planetree::tools

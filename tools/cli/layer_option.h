@@ -21,8 +21,8 @@ SubcommandOptions::Option add_open_layers(SubcommandOptions& subcommand, std::ui
 /// Returns the parts of answers that a model tells by a side rule: the distance alone if sides are
 /// unknown because the side layer is not open, else all.
 std::uint32_t parts_told(const Model& model, SideRule rule = SideRule::kOfFile);
-/// The same of a model with these layers open.
-std::uint32_t parts_told(const ModelInfo& info, std::uint32_t open_layers,
+/// The same of a model with these layers open, of those that its file has.
+std::uint32_t parts_told(const ModelInfo& info, std::uint32_t layers,
                          SideRule rule = SideRule::kOfFile);
 
 }  // namespace planetree::tools

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "octree/geometry/octcode.h"
+#include "tools/cli/layer_option.h"
 #include "tools/simulation/trace_budget.h"
 #include "tools/trace_file/trace_reader.h"
 #include "tools/view/point_answer.h"
@@ -37,7 +38,7 @@ ModelSource::ModelSource(Model model, Probe probe, ShapeReader shape, std::strin
                          std::uint64_t memory_bytes)
     : name_(std::move(name)),
       memory_bytes_(memory_bytes),
-      parts_((model.stats().layers & kSideLayer) != 0 ? kAllParts : kAllParts & ~kSide),
+      parts_(parts_told(model)),
       model_(std::move(model)),
       probe_(std::move(probe)),
       shape_(std::move(shape)),

@@ -46,7 +46,7 @@ class ModelSource final : public ViewSource {
 
   const std::string name_;
   const std::uint64_t memory_bytes_;
-  const std::uint32_t parts_;  // that a query computes; without a side layer there is no side
+  const std::uint32_t parts_;  // that queries compute; see parts_told()
   Model model_;
   std::mutex probing_;
   Probe probe_;

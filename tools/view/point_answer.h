@@ -22,6 +22,7 @@ struct PointAnswer {
   PlacedPoint nearest;
   std::vector<PlacedPoint> contacts;  ///< at most kMaxContacts
   bool are_all = false;               ///< no other contact is within the distance that was asked
+  std::uint32_t parts = kAllParts;    ///< as QueryOptions::parts
 };
 
 /// Asks a question from the pages that are in memory.
@@ -36,7 +37,7 @@ PointAnswer ask_at(AnyProbe& probe, const PointQuestion& question, std::uint32_t
   options.wait = Wait::kNever;
   options.parts = parts;
   const auto nearest = probe.closest_point(question.point, options);
-  PointAnswer answer{placed(nearest), {}, false};
+  PointAnswer answer{placed(nearest), {}, false, parts};
   if (!(question.within > 0)) return answer;
   std::array<std::remove_cv_t<decltype(nearest)>, PointAnswer::kMaxContacts> contacts;
   const Found found = probe.contacts(question.point, question.within, contacts, options);

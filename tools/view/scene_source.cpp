@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "tools/cli/layer_option.h"
 #include "tools/view/scene_facts.h"
 #include "tools/view/view_json.h"
 
@@ -37,8 +38,9 @@ std::unique_ptr<SceneSource> SceneSource::open(const std::filesystem::path& file
   };
   auto description = read_small_scene(file);
   if (!description) return fail(description.error());
-  auto opened =
-      OpenedScene::open(*description, file, options, failure);
+  SceneOptions options;
+  options.memory_budget_bytes = description->budget_bytes(memory_bytes);
+  auto opened = OpenedScene::open(*description, file, options, failure);
   if (!opened) return nullptr;
   auto probe = SceneProbe::create(opened->scene);
   if (!probe) return fail(probe.error());
@@ -54,13 +56,13 @@ Result<std::string> SceneSource::shape(const ShapeView& view) {
   return shape_.read_bytes(view);
 }
 
-/// Whether the model that answered has an open side layer. Without one, an answer with a side is
+/// The parts that the model of an answer tells. If it does not tell sides, an answer with a side is
 /// degraded even if all pages are in memory.
-bool SceneSource::has_sides(const PlacedPoint& answer) const {
-  if (answer.instance == PlacedPoint::kNone) return true;
-  const ModelInfo& info = **opened_.scene.info(opened_.ids[answer.instance]);
+std::uint32_t SceneSource::parts_at(const PlacedPoint& answer) const {
+  if (answer.instance == PlacedPoint::kNone) return kAllParts;
   const std::size_t model = description_.instances[answer.instance].model;
-  return (info.layers & description_.models[model].layers & kSideLayer) != 0;
+  return parts_told(**opened_.scene.info(opened_.ids[answer.instance]),
+                    description_.models[model].layers, SideRule::kOfFile);
 }
 
 std::string SceneSource::answer(const PointQuestion& question) {
@@ -71,7 +73,8 @@ std::string SceneSource::answer(const PointQuestion& question) {
   };
   const std::lock_guard lock(probing_);
   PointAnswer answer = ask_at(probe_, question, kAllParts, placed);
-  if (!has_sides(answer.nearest)) answer = ask_at(probe_, question, kAllParts & ~kSide, placed);
+  const std::uint32_t parts = parts_at(answer.nearest);
+  if (parts != kAllParts) answer = ask_at(probe_, question, parts, placed);
   return answer_json(answer, question.within);
 }
 

@@ -41,7 +41,7 @@ class SceneSource final : public ViewSource {
  private:
   SceneSource(std::string name, SceneDescription description, OpenedScene opened, SceneProbe probe,
               SceneLayout layout);
-  bool has_sides(const PlacedPoint& answer) const;
+  std::uint32_t parts_at(const PlacedPoint& answer) const;
 
   const SceneDescription description_;
   OpenedScene opened_;

@@ -20,11 +20,15 @@ Json triangle_of(const ClosestPoint& answer) {
   return answer.triangle == kNoTriangle ? Json(nullptr) : Json(std::to_string(answer.triangle));
 }
 
-Json point_json(const PlacedPoint& answer) {
-  Json json = {{"distance", number_json(answer.distance)}, {"lower", number_json(answer.lower)},
-               {"upper", number_json(answer.upper)},       {"point", vector_json(answer.point)},
-               {"normal", vector_json(answer.normal)},     {"triangle", triangle_of(answer)},
-               {"feature", feature_word(answer.feature)},  {"side", side_word(answer.side)},
+Json point_json(const PlacedPoint& answer, std::uint32_t parts) {
+  Json json = {{"distance", number_json(answer.distance)},
+               {"lower", number_json(answer.lower)},
+               {"upper", number_json(answer.upper)},
+               {"point", vector_json(answer.point)},
+               {"normal", (parts & kNormal) != 0 ? vector_json(answer.normal) : Json(nullptr)},
+               {"triangle", triangle_of(answer)},
+               {"feature", feature_word(answer.feature)},
+               {"side", side_word(answer.side)},
                {"status", status_word(answer.status)}};
   if (answer.instance != PlacedPoint::kNone) json["instance"] = answer.instance;
   return json;
@@ -87,9 +91,10 @@ std::string info_json(const std::string& name, const ModelInfo& info,
 }
 
 std::string answer_json(const PointAnswer& answer, double within) {
-  Json json = point_json(answer.nearest);
+  Json json = point_json(answer.nearest, answer.parts);
   Json list = Json::array();
-  for (const PlacedPoint& contact : answer.contacts) list.push_back(point_json(contact));
+  for (const PlacedPoint& contact : answer.contacts)
+    list.push_back(point_json(contact, answer.parts));
   json["contacts"] = std::move(list);
   json["contacts_within"] = number_json(within);
   json["contacts_complete"] = answer.are_all;

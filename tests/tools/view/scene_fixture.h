@@ -19,6 +19,10 @@ class SceneFiles : public Command {
                     {"name": "turned", "model": "solid", "translation": [5, 0, 0],
                      "rotation": [1, 0, 0, 1]},
                     {"model": "mesh", "translation": [0, 100, 0]}]})");
+    write("lean.json", R"({"format": "planetree-scene", "version": 1, "memory": "16M",
+      "models": {"solid": {"file": "solid.ptree", "layers": "distance"},
+                 "whole": {"file": "solid.ptree"}},
+      "instances": [{"model": "solid"}, {"model": "whole", "translation": [5, 0, 0]}]})");
     write("one.json", squares(""));
     write("two.json", squares(R"(, {"model": "mesh", "translation": [40, 0, 0],
                                     "rotation": [1, 0, 1, 0]})"));
@@ -26,7 +30,7 @@ class SceneFiles : public Command {
 
  private:
   static std::string squares(const std::string& other) {
-    return R"({"format": "planetree-scene", "version": 1,
+    return R"({"format": "planetree-scene", "version": 1, "memory": "16M",
                "models": {"mesh": {"file": "tree.ptree"}},
                "instances": [{"model": "mesh"})" +
            other + "]}";

@@ -75,7 +75,7 @@ export class AnswerPanel {
       ['interval', `[${text(answer.lower, 10)}, ${text(answer.upper, 10)}]`],
       ['its width', text(width, 3)],
       ['side', sideText(answer.side)],
-      ['normal', triple(answer.normal, 5)],
+      ['normal', answer.normal === null ? 'not known' : triple(answer.normal, 5)],
       ['nearest point', triple(answer.point, 8)],
       ['triangle', answer.triangle === null ? 'none' : `${answer.triangle}, at its ${answer.feature}`],
       ['status', statusText(answer, isFinal)],

@@ -43,7 +43,7 @@ export class Markers {
     for (const part of [...this.answered, ...this.contacts]) part.visible = false;
   }
 
-  // Vectors of the scene; normal is of length 1.
+  // Vectors of the scene; normal is of length 1, or null if it is not known.
   answeredBy(position, nearest, normal, contacts) {
     this.movedTo(position);
     for (const part of this.answered) part.visible = true;
@@ -53,7 +53,8 @@ export class Markers {
     ends.setXYZ(1, ...nearest.toArray());
     ends.needsUpdate = true;
     this.normal.position.copy(nearest);
-    this.normal.setDirection(normal);
+    this.normal.visible = normal !== null;
+    if (normal) this.normal.setDirection(normal);
     contacts.slice(0, kMaxContacts).forEach((point, i) => {
       this.contacts[i].position.copy(point);
       this.contacts[i].visible = true;

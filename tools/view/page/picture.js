@@ -149,7 +149,7 @@ export class Picture {
     if (answer && this.info.instances) this.surface.uniforms.nearest.value = answer.instance ?? -1;
     const position = this.fromModel(this.probe.position);
     if (answer && answer.distance !== null)
-      this.markers.answeredBy(position, this.fromModel(answer.point), new THREE.Vector3(...answer.normal),
+      this.markers.answeredBy(position, this.fromModel(answer.point), answer.normal && new THREE.Vector3(...answer.normal),
                               answer.contacts.map((contact) => this.fromModel(contact.point)));
     else this.markers.movedTo(position);
     this.draw();

@@ -49,11 +49,11 @@ function showFacts(info) {
   byId('stage').setAttribute('aria-label', `The surface of ${info.file} and the probe`);
 }
 
-// Beside a box, as the camera sees it at first.
+// Beside a box, as the camera sees it at first; within the ball around it, which the view shows.
 function placeBeside(lower, upper) {
-  const direction = [0.5, 0.38, -0.05];
-  const longest = Math.max(...upper.map((value, i) => value - lower[i]));
-  return lower.map((value, i) => (value + upper[i]) / 2 + longest * direction[i]);
+  const direction = [0.5, 0.38, -0.05], edges = upper.map((value, i) => value - lower[i]);
+  const length = Math.min(Math.max(...edges), 0.7 * Math.hypot(...edges));
+  return lower.map((value, i) => (value + upper[i]) / 2 + length * direction[i]);
 }
 
 function explain(stage, words) {
