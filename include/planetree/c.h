@@ -26,11 +26,13 @@ extern "C" {
 /// Returns the version of the library, such as "1.2.3".
 PLANETREE_C_API const char* planetree_version(void) PLANETREE_C_NOEXCEPT;
 
-/// Set the default options.
+/// Sets the default options of planetree_open().
 PLANETREE_C_API void planetree_default_open_options(planetree_open_options* options)
     PLANETREE_C_NOEXCEPT;
+/// Sets the default options of a query.
 PLANETREE_C_API void planetree_default_query_options(planetree_query_options* options)
     PLANETREE_C_NOEXCEPT;
+/// Sets the default options of a build.
 PLANETREE_C_API void planetree_default_build_options(planetree_build_options* options)
     PLANETREE_C_NOEXCEPT;
 
@@ -65,8 +67,10 @@ PLANETREE_C_API uint32_t planetree_open(const char* path, const planetree_open_o
                                         planetree_error* error) PLANETREE_C_NOEXCEPT;
 /// Closes a file. Destroy its probes before. Null is allowed.
 PLANETREE_C_API void planetree_close(planetree_model* model) PLANETREE_C_NOEXCEPT;
+/// Returns the contents of the file.
 PLANETREE_C_API void planetree_model_info(const planetree_model* model,
                                           planetree_info* info) PLANETREE_C_NOEXCEPT;
+/// Returns the state and the counters of the open file.
 PLANETREE_C_API void planetree_model_stats(const planetree_model* model,
                                            planetree_stats* stats) PLANETREE_C_NOEXCEPT;
 
@@ -92,19 +96,22 @@ PLANETREE_C_API uint32_t planetree_create_probe(const planetree_model* model,
 /// Destroys a probe. Null is allowed.
 PLANETREE_C_API void planetree_destroy_probe(planetree_probe* probe) PLANETREE_C_NOEXCEPT;
 
-/// The queries. With `never_waits` they allocate nothing, take no lock and make no system call.
+/// Finds the nearest surface point. With `never_waits` this and the other queries allocate nothing,
+/// take no lock and make no system call.
 ///
-/// options  null: the defaults
+/// options  of this and the other queries; null: the defaults
 PLANETREE_C_API void planetree_find_closest_point(
     planetree_probe* probe, const double point[3], const planetree_query_options* options,
     planetree_closest_point* answer) PLANETREE_C_NOEXCEPT;
-/// Returns a planetree_side.
+/// Finds the side of a point. Returns a planetree_side.
 PLANETREE_C_API uint32_t planetree_find_side(planetree_probe* probe, const double point[3],
                                              const planetree_query_options* options)
     PLANETREE_C_NOEXCEPT;
+/// Finds the first triangle that a ray passes through.
 PLANETREE_C_API void planetree_find_first_hit(planetree_probe* probe, const planetree_ray* ray,
                                               const planetree_query_options* options,
                                               planetree_hit* hit) PLANETREE_C_NOEXCEPT;
+/// Finds the first contact of a moving ball.
 PLANETREE_C_API void planetree_find_first_contact(
     planetree_probe* probe, const planetree_sweep* sweep, const planetree_query_options* options,
     planetree_first_contact* contact) PLANETREE_C_NOEXCEPT;
@@ -114,30 +121,33 @@ PLANETREE_C_API planetree_found planetree_find_all_hits(planetree_probe* probe,
                                                         const planetree_query_options* options,
                                                         planetree_hit* hits,
                                                         size_t size) PLANETREE_C_NOEXCEPT;
-/// Find up to `size` contacts of a ball, triangles nearest to a point, or triangles within a radius
-/// of it; the nearest first.
+/// Finds up to `size` contacts of a ball, the nearest first.
 PLANETREE_C_API planetree_found planetree_find_contacts(planetree_probe* probe,
                                                         const double point[3], double radius,
                                                         const planetree_query_options* options,
                                                         planetree_closest_point* answers,
                                                         size_t size) PLANETREE_C_NOEXCEPT;
+/// Finds up to `size` triangles nearest to a point, the nearest first.
 PLANETREE_C_API planetree_found planetree_find_nearest_triangles(
     planetree_probe* probe, const double point[3], const planetree_query_options* options,
     planetree_closest_point* answers, size_t size) PLANETREE_C_NOEXCEPT;
+/// Finds up to `size` triangles within a radius of a point, the nearest first.
 PLANETREE_C_API planetree_found
 planetree_find_triangles_within(planetree_probe* probe, const double point[3], double radius,
                                 const planetree_query_options* options,
                                 planetree_closest_point* answers, size_t size) PLANETREE_C_NOEXCEPT;
 
-/// The queries of many points, rays and moving balls. Answer i is that of query i.
+/// Finds the nearest surface points of many points. Answer i is that of point i.
 ///
 /// points  three doubles for each of `count` points
 PLANETREE_C_API void planetree_find_closest_points(
     planetree_probe* probe, const double* points, size_t count,
     const planetree_query_options* options, planetree_closest_point* answers) PLANETREE_C_NOEXCEPT;
+/// Finds the first hits of rays. Hit i is that of ray i.
 PLANETREE_C_API void planetree_find_first_hits(planetree_probe* probe, const planetree_ray* rays,
                                                size_t count, const planetree_query_options* options,
                                                planetree_hit* hits) PLANETREE_C_NOEXCEPT;
+/// Finds the first contacts of moving balls. Contact i is that of sweep i.
 PLANETREE_C_API void planetree_find_first_contacts(
     planetree_probe* probe, const planetree_sweep* sweeps, size_t count,
     const planetree_query_options* options, planetree_first_contact* contacts) PLANETREE_C_NOEXCEPT;

@@ -34,8 +34,8 @@ struct RayHit {
   /// Certified: the ray certainly passes through no triangle before t_lower. If the status is
   /// kExact, the true t of the first hit is in [t_lower, t_upper]. Infinite if there is no hit.
   double t_lower = std::numeric_limits<double>::infinity();
-  double t_upper = std::numeric_limits<double>::infinity();
-  Vec3 point;                            ///< the point, on the triangle
+  double t_upper = std::numeric_limits<double>::infinity();  ///< see t_lower
+  Vec3 point;                                                ///< the point, on the triangle
   Vec3 normal{0, 0, 1};                  ///< unit normal of the triangle, as the mesh orients it
   std::uint64_t triangle = kNoTriangle;  ///< as ClosestPoint::triangle
   Vec3 barycentric;                      ///< as ClosestPoint::barycentric
@@ -45,7 +45,8 @@ struct RayHit {
 
 /// The motion of a ball: its centre goes straight from `from` to `to` while t goes from 0 to 1.
 struct Sweep {
-  Vec3 from, to;      ///< model units
+  Vec3 from,          ///< centre at t = 0, model units
+      to;             ///< centre at t = 1, model units
   double radius = 0;  ///< model units, >= 0; 0: a point
 };
 

@@ -58,9 +58,9 @@ struct PageAccess {
   /// For kDegraded: upper - lower of the answer, model units, rounded to float; infinity for
   /// Probe::contains.
   float width = 0;
-  Event event = Event::kHit;
-  Query query_kind = Query::kClosestPoint;
-  Section section = Section::kTree;
+  Event event = Event::kHit;                ///< what happened
+  Query query_kind = Query::kClosestPoint;  ///< kind of the query that the record is of
+  Section section = Section::kTree;         ///< part of the file that has the page
   std::uint8_t level = 0;  ///< octree level of the page: 0 is the whole model, 19 a finest cell
   bool in_batch = false;   ///< the query is one of a batch
   bool waits = false;      ///< the query waits for pages (Wait::kForPages)
