@@ -87,6 +87,8 @@ int show_slice(const SliceArguments& arguments, Console& console) {
         file, make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
                          "the model's box is too large or too small to draw; choose another plane "
                          "or scale the model"));
+  if (const std::string complaint = arguments.plane->complaint(model->info()); !complaint.empty())
+    console.warn(file, complaint);
   std::vector<PixelAnswer> answers = query_pixels(raster, *probe, arguments);
   const SliceScales scales(answers, (arguments.overlays & kWidthOverlay) != 0,
                            raster.pixel_length());

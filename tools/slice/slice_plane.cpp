@@ -1,5 +1,7 @@
 #include "tools/slice/slice_plane.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "octree/builder/mesh/stream/mesh_text.h"
@@ -23,6 +25,23 @@ double SlicePlane::coordinate(const ModelInfo& info) const {
   if (!percent) return value;
   const double share = value / 100;
   return component(info.core_lower, axis) * (1 - share) + component(info.core_upper, axis) * share;
+}
+
+std::string SlicePlane::complaint(const ModelInfo& info) const {
+  const double at = coordinate(info);
+  const double lower = component(info.core_lower, axis), upper = component(info.core_upper, axis);
+  if (lower <= at && at <= upper) return {};
+  const char letter = "xyz"[axis];
+  const std::string plane = percent
+                                ? fmt::format("{}={:.9g}%, {}={:.9g},", letter, value, letter, at)
+                                : fmt::format("{}={:.9g}", letter, value);
+  const std::string box = info.strays == 0
+                              ? "the model's box"
+                              : fmt::format("the box of all triangles but {} strays", info.strays);
+  return fmt::format(
+      "the plane {} is outside of {}, where {} is from {:.9g} to {:.9g}; give a {} between them to "
+      "cut the surface",
+      plane, box, letter, lower, upper, letter);
 }
 
 }  // namespace planetree::tools

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "planetree/model.h"
@@ -22,6 +23,9 @@ struct SlicePlane {
   static std::optional<SlicePlane> parse(std::string_view text);
   /// The coordinate in model units.
   [[nodiscard]] double coordinate(const ModelInfo& info) const;
+  /// What is wrong with a plane that does not meet the core, which the picture shows: the plane and
+  /// the core's sides. Empty if it meets it.
+  [[nodiscard]] std::string complaint(const ModelInfo& info) const;
 };
 
 }  // namespace planetree::tools

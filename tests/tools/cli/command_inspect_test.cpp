@@ -165,6 +165,20 @@ TEST_F(Command, InspectDrawsASlice) {
   EXPECT_EQ(run(draw).status, 2);
 }
 
+TEST_F(Command, InspectWarnsOfASliceBesideTheModel) {
+  const auto errors_of = [](const std::string& plane) {
+    const Outcome result = run(
+        {"inspect", "tree.ptree", "--slice", plane, "--image", "slice.png", "--quiet", "--force"});
+    EXPECT_EQ(result.status, 0) << result.errors;
+    return result.errors;
+  };
+  EXPECT_EQ(errors_of("x=7"), "");
+  EXPECT_TRUE(errors_of("x=99").starts_with(
+      "planetree: warning: tree.ptree: the plane x=99 is outside of the model's box, where x is "
+      "from 0 to 14; "))
+      << errors_of("x=99");
+}
+
 TEST_F(Command, VerifyListsIssuesAndFails) {
   const Outcome well = run({"verify", "tree.ptree", "--full", "--json"});
   EXPECT_EQ(well.status, 0);
