@@ -293,7 +293,8 @@ void add_build(CLI::App& app, Console& console, std::function<int()>& action) {
       "Build only these layers of the file: distance (always built), side (sides of solids), "
       "field (answers within an error, and degraded ones), with commas between them. What is "
       "left out cannot be opened; sides of solids are unknown without side");
-  add_keep(subcommand, arguments.options.keep, arguments.options.value_property);
+  const KeepOptions keep =
+      add_keep(subcommand, arguments.options.keep, arguments.options.value_property);
   subcommand.flag(
       "--resume", arguments.options.resume,
       "Keep a checkpoint in the directory OUT.ptree.work, next to the output or in --temp-dir, "
@@ -314,13 +315,15 @@ void add_build(CLI::App& app, Console& console, std::function<int()>& action) {
   subcommand.flag("--json", arguments.json,
                   "Report as one JSON object; progress as JSON lines, on standard error");
   subcommand.flag("--quiet", arguments.quiet, "Show no progress");
-  subcommand.on_given([options, &console, &action] {
+  subcommand.on_given([options, keep, &console, &action] {
     options->arguments.options.threads = static_cast<unsigned>(options->threads);
     options->arguments.options.page_bytes = static_cast<std::uint32_t>(options->page_bytes);
     action = [options, &console] { return run_build(options->arguments, console); };
-    const std::string complaint = page_size_complaint(options->page_bytes);
-    return complaint.empty() ? memory_complaint(options->arguments.options.memory_bytes)
-                             : complaint;
+    for (const std::string& complaint : {page_size_complaint(options->page_bytes),
+                                         memory_complaint(options->arguments.options.memory_bytes),
+                                         keep.complaint(options->arguments.options.keep)})
+      if (!complaint.empty()) return complaint;
+    return std::string();
   });
 }
 

@@ -34,20 +34,31 @@ std::string value_kind_text(ValueKind kind) {
   return kind == ValueKind::kSigned ? "signed" : "unsigned";
 }
 
-void add_keep(SubcommandOptions& subcommand, std::uint32_t& keep, std::string& value_property) {
-  subcommand.text(
+std::string KeepOptions::complaint(std::uint32_t kept) const {
+  if (!SubcommandOptions::given(value) || (kept & kKeepValue) != 0) return {};
+  return SubcommandOptions::given(keep)
+             ? "--value names what --keep value keeps; add value to --keep, or omit --value"
+             : "--value names what --keep value keeps; add --keep value, or omit --value";
+}
+
+KeepOptions add_keep(SubcommandOptions& subcommand, std::uint32_t& keep,
+                     std::string& value_property) {
+  KeepOptions options{};
+  options.keep = subcommand.text(
       "--keep", "ATTRIBUTES", complaint_of,
       [&keep](const std::string& text) { keep = attributes_of(text); },
       "Keep attributes of triangles in the file, which `query --attributes` and Model::triangle() "
       "read: triangles (corners by index; all others include it), color (of the vertices), uv "
       "(texture coordinates), value (8 bytes a triangle), with commas between them. A mesh without "
       "one of them is refused");
-  subcommand.default_text(
+  options.value = subcommand.default_text(
       subcommand.text(
-          "--value", "PROPERTY", [](const std::string&) { return std::string(); },
+          "--value", "PROPERTY",
+          [](const std::string& text) { return text.empty() ? "give the name of a property" : ""; },
           [&value_property](const std::string& text) { value_property = text; },
           "The property of a PLY's faces whose values --keep value keeps"),
       "value");
+  return options;
 }
 
 }  // namespace planetree::tools

@@ -17,7 +17,16 @@ std::vector<std::string> attribute_words(std::uint32_t attributes);
 /// Returns "unsigned", "signed" or "real".
 std::string value_kind_text(ValueKind kind);
 
+/// The options of attributes on a command line.
+struct KeepOptions {
+  SubcommandOptions::Option keep, value;
+
+  /// A complaint if options do not go together, or nothing. Once the command line is parsed.
+  [[nodiscard]] std::string complaint(std::uint32_t kept) const;
+};
+
 /// Declares --keep and --value.
-void add_keep(SubcommandOptions& subcommand, std::uint32_t& keep, std::string& value_property);
+KeepOptions add_keep(SubcommandOptions& subcommand, std::uint32_t& keep,
+                     std::string& value_property);
 
 }  // namespace planetree::tools

@@ -98,6 +98,23 @@ TEST_F(CommandAttributes, NeedWhatTheFileKeeps) {
   EXPECT_FALSE(fs::exists("no.ptree"));
 }
 
+TEST_F(CommandAttributes, RefuseANameOfValuesThatAreNotKept) {
+  write_square();
+  const auto refusal = [](const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{"build", "square.ply", "-o", "no.ptree"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Outcome result = run(arguments);
+    EXPECT_EQ(result.status, 2);
+    EXPECT_FALSE(fs::exists("no.ptree"));
+    return result.errors;
+  };
+  EXPECT_NE(refusal({"--value", "part"}).find("add --keep value"), std::string::npos);
+  EXPECT_NE(refusal({"--value", "part", "--keep", "color,uv"}).find("add value to --keep"),
+            std::string::npos);
+  EXPECT_NE(refusal({"--value", "", "--keep", "value"}).find("give the name of a property"),
+            std::string::npos);
+}
+
 TEST_F(CommandAttributes, AreInspectedAndVerified) {
   write_square();
   ASSERT_EQ(build("uv,value", {"--value", "part", "--page-size", "4K"}).status, 0);
