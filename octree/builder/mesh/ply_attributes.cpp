@@ -56,6 +56,33 @@ std::optional<std::size_t> find_uv_list(const PlyElement& element) {
   return std::nullopt;
 }
 
+/// The names of the properties that are single numbers, `first` in front, with commas. At least one
+/// is listed, and then as many as `most` characters hold. The others are counted.
+std::string listed_numbers(const PlyElement& element, const std::string& first, std::size_t most) {
+  std::vector<std::string> names;
+  for (const PlyProperty& property : element.properties) {
+    if (property.is_list) continue;
+    names.insert(property.name == first ? names.begin() : names.end(), printable(property.name));
+  }
+  if (names.empty()) return "none";
+  std::string text = names.front();
+  std::size_t i = 1;
+  for (; i < names.size() && text.size() + 2 + names[i].size() <= most; ++i)
+    text += ", " + names[i];
+  return i < names.size() ? text + " and " + std::to_string(names.size() - i) + " more" : text;
+}
+
+/// The error of a PLY whose faces have no number of this name. What there is fits in its text.
+Error missing_value(const PlyHeader& header, const std::string& name) {
+  constexpr std::size_t kMaxOfFaces = 32, kMaxOfVertices = 20;
+  const std::string faces = listed_numbers(header.faces(), name, kMaxOfFaces);
+  return make_error(
+      ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
+      "no face property '%s'; faces have %s; vertices have %s; %s", printable(name).c_str(),
+      faces.c_str(), listed_numbers(header.vertices(), name, kMaxOfVertices).c_str(),
+      faces == "none" ? "build the mesh without --keep value" : "name one of faces by --value");
+}
+
 class AttributeFinder {
  public:
   explicit AttributeFinder(const PlyHeader& header) : header_(header) {}
@@ -90,8 +117,7 @@ class AttributeFinder {
   Result<void> find_value(const std::string& name) {
     if (header_.has_strips) return missing_attribute(kKeepValue, "triangle strips have none");
     found_.value = find_number(header_.faces(), name);
-    if (!found_.value)
-      return missing_attribute(kKeepValue, "no face property '" + printable(name) + "'");
+    if (!found_.value) return missing_value(header_, name);
     found_.value_kind = kind_of(header_.faces().properties[*found_.value].type);
     return {};
   }

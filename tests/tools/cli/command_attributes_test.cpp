@@ -115,6 +115,15 @@ TEST_F(CommandAttributes, RefuseANameOfValuesThatAreNotKept) {
             std::string::npos);
 }
 
+TEST_F(CommandAttributes, NameWhatTheInputHas) {
+  write_square();
+  const Outcome lacks = build("value");
+  EXPECT_EQ(lacks.status, 1);
+  EXPECT_EQ(lacks.errors,
+            "planetree: square.ply: no face property 'value'; faces have part; vertices have x, y, "
+            "z, red, green and 3 more; name one of faces by --value\n");
+}
+
 TEST_F(CommandAttributes, AreInspectedAndVerified) {
   write_square();
   ASSERT_EQ(build("uv,value", {"--value", "part", "--page-size", "4K"}).status, 0);

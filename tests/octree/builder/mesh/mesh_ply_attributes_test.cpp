@@ -285,8 +285,31 @@ TEST(PlyAttributes, ThatAreMissingAreRefused) {
             "no texture coordinates: no vertex property 'u', 'v', nor 's', 't', 'texture_u' or "
             "'texture_s', and no face list 'texcoord'; build the mesh without --keep uv");
   EXPECT_EQ(read_kept(bytes, ".ply", kKeepValue).error,
-            "no values of triangles: no face property 'value'; build the mesh without --keep "
-            "value");
+            "no face property 'value'; faces have none; vertices have x, y, z; build the mesh "
+            "without --keep value");
+}
+
+/// The error of faces without 'value', in a PLY whose vertices and faces have these properties too.
+std::string error_without_value(const std::string& of_vertex, const std::string& of_face) {
+  return read_kept(polygon("ascii", of_vertex, of_face, kNothing, kNothing), ".ply", kKeepValue)
+      .error;
+}
+
+TEST(PlyAttributes, NameWhatFacesAndVerticesHave) {
+  EXPECT_EQ(error_without_value("property float value\nproperty float nx\n",
+                                "property list uchar float value\nproperty int part\n"
+                                "property float area\n"),
+            "no face property 'value'; faces have part, area; vertices have value, x, y, z, nx; "
+            "name one of faces by --value");
+  EXPECT_EQ(error_without_value("",
+                                "property int first_of_them_all\nproperty int second\n"
+                                "property int third\nproperty int fourth\n"),
+            "no face property 'value'; faces have first_of_them_all, second, third and 1 more; "
+            "vertices have x, y, z; name one of faces by --value");
+  std::string many;
+  for (int i = 0; i < 1000; ++i)
+    many += "property int " + std::string(30, 'n') + std::to_string(i) + "\n";
+  EXPECT_TRUE(error_without_value(many, many).ends_with("; name one of faces by --value"));
 }
 
 TEST(PlyAttributes, OfStripsAreThoseOfVertices) {
