@@ -13,6 +13,7 @@
 #include "tools/answer_tally.h"
 #include "tools/answers/placed_point.h"
 #include "tools/cli/file_extension.h"
+#include "tools/cli/parts_option.h"
 #include "tools/cli/progress.h"
 #include "tools/cli/subcommand_options.h"
 #include "tools/points/row_reader.h"
@@ -183,6 +184,15 @@ void add_scene(CLI::App& app, Console& console, std::function<int()>& action) {
           "file, from 0"),
       "the extension of OUT; csv if it is none of these");
   const auto force = subcommand.flag("--force", arguments.force, "Replace the output if it exists");
+  const auto parts = SubcommandOptions::default_text(
+      add_parts(
+          subcommand,
+          [&arguments](std::uint32_t given) {
+            arguments.options.parts = arguments.form.parts = given;
+          },
+          "The other columns of csv are empty, the other keys of jsonl are left out. The side is "
+          "that of the nearest instance; alone, it tells whether the point is inside of any"),
+      parts_text(kAllParts));
   const auto max_error = subcommand.default_text(
       subcommand.length("--max-error", arguments.options.max_error, false,
                         "Tolerance of the distance, in the scene's unit; 0 means exact"),
@@ -194,7 +204,7 @@ void add_scene(CLI::App& app, Console& console, std::function<int()>& action) {
   const auto memory = subcommand.default_text(
       subcommand.bytes("--memory", options->memory_bytes, "Maximum memory for the scene"),
       "what the scene file says, or 256M");
-  for (const auto of_points : {output, format, force, max_error, max_distance})
+  for (const auto of_points : {output, format, force, parts, max_error, max_distance})
     subcommand.need(of_points, points);
   subcommand.flag("--json", arguments.json,
                   "Report as one JSON object: of the scene on standard output, of the answers on "

@@ -107,6 +107,31 @@ TEST_F(SceneCommand, AnswersPointsWithTheInstance) {
   EXPECT_TRUE(json_of(beyond.output)["instance"].is_null());
 }
 
+// Without the side layer an answer of all parts is degraded, one of the distance alone is exact.
+TEST_F(SceneCommand, AnswersThePartsThatAreRequested) {
+  const auto answer = [](const std::string& parts, const std::string& point) {
+    const Outcome result =
+        run({"scene", "scene.json", "-", "--parts", parts, "--format", "jsonl"}, point);
+    EXPECT_EQ(result.status, 0) << result.errors;
+    return json_of(result.output);
+  };
+  const Json distance = answer("distance", "3,100,2\n");
+  EXPECT_EQ(distance["status"], "exact");
+  EXPECT_EQ(distance["instance"], 2);
+  EXPECT_TRUE(distance.contains("px"));
+  EXPECT_FALSE(distance.contains("side") || distance.contains("nx"));
+  EXPECT_EQ(answer("distance,side", "6,0.1,0.1\n")["side"], "outside");
+  const Json all = answer("normal", "5.1,0.1,0.1\n");
+  EXPECT_TRUE(all.contains("nx") && all.contains("distance"));
+  EXPECT_EQ(all["side"], "inside");
+  const Json side = answer("side", "5.1,0.1,0.1\n");
+  EXPECT_EQ(side["side"], "inside");
+  EXPECT_EQ(side["instance"], 1);
+  EXPECT_FALSE(side.contains("distance"));
+  EXPECT_EQ(run({"scene", "scene.json", "--parts", "side"}).status, 2);
+  EXPECT_EQ(run({"scene", "scene.json", "-", "--parts", "triangle"}, "1,2,3\n").status, 2);
+}
+
 TEST_F(SceneCommand, ChoosesTheFormatByTheExtension) {
   EXPECT_EQ(run({"scene", "scene.json", "-", "-o", "out.jsonl"}, "1,2,3\n").status, 0);
   EXPECT_EQ(text_of("out.jsonl"),
