@@ -22,6 +22,7 @@
 #include "tools/compare/compare_page.h"
 #include "tools/compare/compare_report.h"
 #include "tools/compare/mesh_comparison.h"
+#include "tools/model_beside.h"
 #include "tools/points/columns_option.h"
 #include "tools/points/row_reader.h"
 #include "tools/values/coloured_cloud.h"
@@ -36,11 +37,6 @@ constexpr std::size_t kChunkPoints = 32768;
 constexpr std::uint64_t kOwnBytes = std::uint64_t{40} << 20;
 constexpr std::uint64_t kMeshBytes = std::uint64_t{48} << 20, kReaderBytes = kMeshBytes / 3;
 
-std::uint64_t model_bytes(std::uint64_t memory_bytes, InputKind kind) {
-  const std::uint64_t own = kOwnBytes + (kind == InputKind::kMesh ? kMeshBytes : 0);
-  return std::max(memory_bytes / 2, memory_bytes - std::min(memory_bytes, own));
-}
-
 class Compare {
  public:
   Compare(const CompareArguments& arguments, Console& console)
@@ -54,7 +50,9 @@ class Compare {
     const auto kind = arguments_.kind ? Result(*arguments_.kind) : input_kind(arguments_.other);
     if (!kind) return stop(arguments_.other.string(), kind.error());
     kind_ = *kind;
-    const auto model = open_model(arguments_.file, open_options(), console_);
+    const std::uint64_t own = kOwnBytes + (kind_ == InputKind::kMesh ? kMeshBytes : 0);
+    const auto model =
+        open_model_beside(own, arguments_.memory_bytes, arguments_.file, open_options(), console_);
     if (!model) return console_.fail(arguments_.file.string(), model.error());
     auto probe = Probe::create(*model);
     if (!probe) return console_.fail(arguments_.file.string(), probe.error());
@@ -82,7 +80,6 @@ class Compare {
  private:
   OpenOptions open_options() const {
     OpenOptions options;
-    options.memory_budget_bytes = model_bytes(arguments_.memory_bytes, kind_);
     if (arguments_.is_unsigned) options.layers = kDistanceLayer | kFieldLayer;
     options.batch_threads = static_cast<unsigned>(arguments_.threads);
     return options;

@@ -20,6 +20,7 @@
 #include "tools/cli/side_option.h"
 #include "tools/cli/subcommand_options.h"
 #include "tools/mesh/model_pieces.h"
+#include "tools/model_beside.h"
 #include "tools/points/columns_option.h"
 #include "tools/points/row_reader.h"
 #include "tools/thickness/thickness_page.h"
@@ -60,11 +61,9 @@ class Thickness {
   int run() {
     if (const int status = open_outputs(); status != kDone) return status;
     OpenOptions options;
-    options.memory_budget_bytes =
-        std::max(arguments_.memory_bytes / 2,
-                 arguments_.memory_bytes - std::min(arguments_.memory_bytes, kOwnBytes));
     options.batch_threads = static_cast<unsigned>(arguments_.threads);
-    const auto model = open_model(arguments_.file, options, console_);
+    const auto model =
+        open_model_beside(kOwnBytes, arguments_.memory_bytes, arguments_.file, options, console_);
     if (!model) return console_.fail(arguments_.file.string(), model.error());
     auto probe = Probe::create(*model);
     if (!probe) return console_.fail(arguments_.file.string(), probe.error());

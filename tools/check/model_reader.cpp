@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <utility>
 
+#include "tools/check/model_memory.h"
+
 namespace planetree::tools {
 namespace {
 
@@ -12,8 +14,10 @@ constexpr std::uint64_t kMemoryBytes = std::uint64_t{256} << 20;
 
 Result<ModelReader> ModelReader::open(const std::filesystem::path& path) {
   OpenOptions options;
-  options.memory_budget_bytes = kMemoryBytes;
   options.max_probes = 1;
+  const auto memory = memory_without_limit(kMemoryBytes, path, options);
+  if (!memory) return memory.error();
+  options.memory_budget_bytes = *memory;
   auto model = query::ModelState::open(path, options);
   if (!model) return model.error();
   auto reader = (*model)->claim_reader();

@@ -10,7 +10,7 @@ namespace planetree::tools {
 
 /// A model opened below the public interface, and a reader of its pages.
 ///
-/// memory  up to 256 MiB
+/// memory  up to 256 MiB, or what the model needs if that is more
 struct ModelReader {
   /// errors  as Model::open
   static Result<ModelReader> open(const std::filesystem::path& path);

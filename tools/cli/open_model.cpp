@@ -22,6 +22,12 @@ Result<Model> open_model(const std::filesystem::path& path, OpenOptions options,
   return model;
 }
 
+Error too_little_memory(std::uint64_t memory_bytes, std::uint64_t least_bytes) {
+  return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
+                    "--memory of %" PRIu64 " bytes is too small: give at least %" PRIu64 " bytes",
+                    memory_bytes, least_bytes);
+}
+
 std::optional<Error> pages_lost(const Stats& stats) {
   if (stats.quarantined_pages != 0)
     return make_error(ErrorCode::kDamaged, Error::kNowhere, Error::kNowhere,

@@ -20,6 +20,12 @@ unsigned batch_threads_of(unsigned wanted);
 /// errors   as Model::open
 Result<Model> open_model(const std::filesystem::path& path, OpenOptions options, Console& console);
 
+/// The error of a model that needs more than the command has.
+///
+/// memory_bytes  of --memory
+/// least_bytes   that --memory must be for the model
+Error too_little_memory(std::uint64_t memory_bytes, std::uint64_t least_bytes);
+
 /// The error to report after the answers if pages were unreadable or did not come in time, so that
 /// answers are degraded. Empty if there were none.
 std::optional<Error> pages_lost(const Stats& stats);

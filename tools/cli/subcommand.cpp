@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "storage/system/file_error.h"
+#include "tools/cli/command_words.h"
 
 namespace planetree::tools {
 namespace {
@@ -59,7 +60,8 @@ int exit_status(ErrorCode code) noexcept {
 }
 
 std::string error_line(std::string_view file, const Error& error) {
-  return in_one_line(fmt::format("planetree: {}: {}{}", file, location_text(error), error.text)) +
+  return in_one_line(fmt::format("planetree: {}: {}{}", file, location_text(error),
+                                 in_command_words(error.text))) +
          '\n';
 }
 

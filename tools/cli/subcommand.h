@@ -32,7 +32,7 @@ inline constexpr ExitStatus kExitStatuses[] = {
 [[nodiscard]] int exit_status(ErrorCode code) noexcept;
 
 /// "planetree: FILE: page 3, at byte 4096: cause; what to do" in one line: control characters, also
-/// in the file's name, become '?'.
+/// in the file's name, become '?'. The cause and what to do are those of in_command_words().
 [[nodiscard]] std::string error_line(std::string_view file, const Error& error);
 
 /// One line of JSON. Bytes that are not UTF-8, as in file names, are replaced.

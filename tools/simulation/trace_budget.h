@@ -12,7 +12,7 @@ namespace planetree::tools {
 /// without one within `options.memory_budget_bytes`.
 ///
 /// options  with the capacity of the trace
-/// errors   those of Model::open that do not depend on memory
+/// errors   as Model::open; if the memory is too little, the text has the amount without the trace
 Result<std::uint64_t> budget_with_trace(const std::filesystem::path& path,
                                         const OpenOptions& options);
 

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "tools/check/model_memory.h"
 #include "tools/cli/open_model.h"
 #include "tools/cli/progress.h"
 #include "tools/picture/picture_file.h"
@@ -76,7 +77,11 @@ std::vector<PixelAnswer> query_pixels(const SliceRaster& raster, Probe& probe,
 int show_slice(const SliceArguments& arguments, Console& console) {
   const std::string file = arguments.file.string();
   OpenOptions options;
-  options.memory_budget_bytes = kMemoryBytes;
+  options.max_probes = 1;
+  options.batch_threads = batch_threads_of(0);
+  const auto memory = memory_without_limit(kMemoryBytes, arguments.file, options);
+  if (!memory) return console.fail(file, memory.error());
+  options.memory_budget_bytes = *memory;
   const auto model = open_model(arguments.file, options, console);
   if (!model) return console.fail(file, model.error());
   auto probe = Probe::create(*model);
