@@ -59,7 +59,7 @@ TEST_P(SpecFieldTest, LibraryComputesTheSameBounds) {
   ASSERT_TRUE(file) << file.error().text;
   const octree::FieldShape shape = query::field_shape(file->header().model);
   std::vector<std::byte> memory(shape.bytes());
-  const auto loaded = query::load_field(*file, memory);
+  const auto loaded = query::load_field(*file, 1, memory);
   ASSERT_TRUE(loaded) << loaded.error().text;
   octree::CoarseField ours;
   ours.fill(shape, loaded->points, false);
