@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "octree/builder/mesh/stream/mesh_text.h"
-#include "tools/cli/file_extension.h"
+#include "tools/cli/input_file.h"
 #include "tools/cli/layer_option.h"
 #include "tools/cli/parts_option.h"
 #include "tools/cli/policy_option.h"

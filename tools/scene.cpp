@@ -12,7 +12,7 @@
 #include "planetree/scene.h"
 #include "tools/answer_tally.h"
 #include "tools/answers/placed_point.h"
-#include "tools/cli/file_extension.h"
+#include "tools/cli/input_file.h"
 #include "tools/cli/parts_option.h"
 #include "tools/cli/progress.h"
 #include "tools/cli/subcommand_options.h"

@@ -22,7 +22,7 @@ ShapeReader sample_shapes() {
   std::vector<FileParts> files;
   for (const char* name : {"sphere.ptree", "tube.ptree"}) {
     auto parts = ShapeReader::open_file(folder / name);
-    expect(parts.has_value());
+    expect(static_cast<bool>(parts));
     files.push_back(*std::move(parts));
   }
   const ShapeFrame ball = ShapeFrame::of(*files[0].header()),
@@ -44,7 +44,7 @@ class CheckedSource final : public ViewSource {
     expect(std::isfinite(view.eye.x) && std::isfinite(view.look.z));
     expect(view.cosine >= -1 && view.cosine <= 1);
     const auto shape = shapes_.read(view, std::chrono::milliseconds(20));
-    expect(shape.has_value());
+    expect(static_cast<bool>(shape));
     const std::size_t least = 3 * std::size_t{octree::kMaxBlockTriangles};  // of the three roots
     expect((*shape)->size() >= 3 && (*shape)->size() <= std::max<std::size_t>(view.discs, least));
     for (const ShapePiece& piece : (*shape)->pieces) expect(piece.instance < 3);

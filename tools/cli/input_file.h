@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
@@ -12,6 +14,15 @@
 #include "planetree/error.h"
 
 namespace planetree::tools {
+
+/// The extension of a file's name with its dot, in small letters: ".ply" of "scan.PLY". Empty if
+/// there is none.
+[[nodiscard]] inline std::string lower_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c | 0x20) : c; });
+  return extension;
+}
 
 /// A stream of bytes that is owned and closed, or borrowed.
 class InputFile {

@@ -2,18 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <array>
-
 #include "octree/builder/mesh/stream/mesh_text.h"
-#include "tools/cli/word_mask.h"
 
 namespace planetree::tools {
 namespace {
-
-constexpr std::array<WordBit, 4> kWords = {{{"distance", kDistanceLayer},
-                                            {"side", kSideLayer},
-                                            {"field", kFieldLayer},
-                                            {"attributes", kAttributeLayer}}};
 
 std::string complaint_of(const std::string& text) {
   if (layers_of(text) != 0) return {};
@@ -24,17 +16,6 @@ std::string complaint_of(const std::string& text) {
 }
 
 }  // namespace
-
-std::uint32_t layers_of(const std::string& text) {
-  const std::uint32_t layers = bits_of_words(text, kWords);
-  return layers == 0 ? 0 : layers | kDistanceLayer;
-}
-
-std::vector<std::string> layer_words(std::uint32_t layers) { return words_of_bits(layers, kWords); }
-
-std::string layers_text(std::uint32_t layers) {
-  return fmt::format("{}", fmt::join(layer_words(layers), ","));
-}
 
 SubcommandOptions::Option add_layers(SubcommandOptions& subcommand, std::uint32_t& layers,
                                      const std::string& help) {

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "octree/builder/mesh/stream/mesh_text.h"
-#include "tools/cli/file_extension.h"
+#include "tools/cli/input_file.h"
 #include "tools/cli/output_file.h"
 #include "tools/picture/raster_painter.h"
 #include "tools/picture/svg_writer.h"

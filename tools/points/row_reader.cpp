@@ -8,7 +8,6 @@
 
 #include "octree/builder/mesh/ply_header.h"
 #include "octree/builder/mesh/stream/mesh_file.h"
-#include "tools/cli/file_extension.h"
 #include "tools/cli/input_file.h"
 #include "tools/points/foreign_format.h"
 #include "tools/points/las_points.h"

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "octree/builder/mesh/stream/mesh_text.h"
-#include "tools/cli/file_extension.h"
+#include "tools/cli/input_file.h"
 #include "tools/cli/progress.h"
 #include "tools/report/bounds_export.h"
 

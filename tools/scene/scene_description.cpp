@@ -11,7 +11,7 @@
 
 #include "octree/builder/mesh/stream/mesh_text.h"
 #include "tools/cli/input_file.h"
-#include "tools/cli/layer_option.h"
+#include "tools/cli/layer_words.h"
 #include "tools/cli/size_text.h"
 
 namespace planetree::tools {

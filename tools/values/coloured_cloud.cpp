@@ -3,7 +3,7 @@
 #include <limits>
 #include <utility>
 
-#include "tools/cli/file_extension.h"
+#include "tools/cli/input_file.h"
 
 namespace planetree::tools {
 

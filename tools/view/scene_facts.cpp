@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "tools/cli/layer_option.h"
+#include "tools/cli/layer_words.h"
 #include "tools/cli/subcommand.h"
 #include "tools/scene/scene_report.h"
 #include "tools/view/view_json.h"

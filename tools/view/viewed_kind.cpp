@@ -4,7 +4,6 @@
 #include <string_view>
 
 #include "storage/file/file_layout.h"
-#include "tools/cli/file_extension.h"
 #include "tools/cli/input_file.h"
 
 namespace planetree::tools {
