@@ -9,6 +9,13 @@
 
 namespace planetree::octree {
 
+/// The rotation by `b`, then by `a`.
+constexpr Quaternion product(const Quaternion& a, const Quaternion& b) {
+  return {
+      a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+      a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
+}
+
 /// Maps points and directions of a body's frame by a pose, with a bound on the error.
 ///
 /// Let q be the quaternion, n = |q|^2, R the rotation of q / |q|, and u = 2^-53.

@@ -31,18 +31,12 @@ double sine_by_angle(double square) {
   return sum;
 }
 
-Quaternion product(const Quaternion& a, const Quaternion& b) {
-  return {
-      a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
-      a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
-}
-
 // The pose after a time, whose angle is at most kMaxAngle.
 Pose moved(const Placement& placement, double seconds) {
   const Vec3 half = placement.twist.angular * (seconds / 2);
   const double square = dot(half, half), sine = sine_by_angle(square);
   const Quaternion turn{cosine(square), half.x * sine, half.y * sine, half.z * sine};
-  return {product(turn, placement.pose.rotation),
+  return {octree::product(turn, placement.pose.rotation),
           placement.pose.translation + placement.twist.linear * seconds};
 }
 

@@ -10,12 +10,6 @@ namespace {
 
 double speed_of(const Vec3& velocity) { return std::hypot(velocity.x, velocity.y, velocity.z); }
 
-Quaternion product(const Quaternion& a, const Quaternion& b) {
-  return {
-      a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
-      a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
-}
-
 bool is_still(const Twist& twist) {
   return speed_of(twist.linear) == 0 && speed_of(twist.angular) == 0;
 }
@@ -32,8 +26,8 @@ Pose pose_after(const InstanceDescription& instance, double seconds) {
   if (speed == 0) return pose;
   const double half = 0.5 * speed * seconds;
   const double s = std::sin(half) / speed;
-  pose.rotation = product({std::cos(half), s * angular.x, s * angular.y, s * angular.z},
-                          instance.pose.rotation);
+  pose.rotation = octree::product({std::cos(half), s * angular.x, s * angular.y, s * angular.z},
+                                  instance.pose.rotation);
   return pose;
 }
 
