@@ -84,8 +84,7 @@ int TouchRun::read() {
   auto scene = read_scene(arguments_.file);
   if (!scene) return console_.fail(arguments_.file.string(), scene.error());
   scene_ = *std::move(scene);
-  if (!arguments_.memory_is_given && scene_.memory_bytes)
-    arguments_.memory_bytes = *scene_.memory_bytes;
+  if (!arguments_.memory_is_given) arguments_.memory_bytes = scene_.budget_bytes({});
   for (const ModelDescription& model : scene_.models) inputs_.push_back(model.file);
   return kDone;
 }

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "octree/builder/mesh/stream/mesh_text.h"
+#include "octree/geometry/rigid_transform.h"
 #include "tools/cli/input_file.h"
 #include "tools/cli/layer_words.h"
 #include "tools/cli/size_text.h"
@@ -124,7 +125,7 @@ std::string read_instance(std::size_t index, const Json& json, const SceneDescri
   Vec3 &at = instance.pose.translation, &linear = instance.twist.linear,
        &angular = instance.twist.angular;
   reader.numbers("translation", {&at.x, &at.y, &at.z});
-  if (!(std::max({std::fabs(at.x), std::fabs(at.y), std::fabs(at.z)}) <= 0x1p500))
+  if (!octree::RigidTransform::is_in_range(at))
     reader.complain("has a 'translation' with coordinates above 2^500");
   reader.numbers("velocity", {&linear.x, &linear.y, &linear.z});
   reader.numbers("angular_velocity", {&angular.x, &angular.y, &angular.z});

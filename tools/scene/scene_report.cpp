@@ -8,7 +8,7 @@
 
 #include "octree/builder/mesh/stream/mesh_text.h"
 #include "tools/check/file_parts.h"
-#include "tools/cli/layer_option.h"
+#include "tools/cli/layer_words.h"
 #include "tools/cli/size_text.h"
 #include "tools/report/layer_report.h"
 
