@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "storage/file/page_file.h"
+#include "tools/cli/layer_option.h"
 
 namespace planetree::tools {
 
@@ -63,6 +64,12 @@ std::size_t OpenedScene::index_of(InstanceId id) const {
   const auto found = std::ranges::lower_bound(ids, id);
   const bool is_there = found != ids.end() && *found == id;
   return is_there ? static_cast<std::size_t>(found - ids.begin()) : ids.size();
+}
+
+std::uint32_t parts_told_by(const SceneDescription& description, const OpenedScene& opened,
+                            std::size_t index) {
+  const ModelDescription& model = description.models[description.instances[index].model];
+  return parts_told(**opened.scene.info(opened.ids[index]), model.layers);
 }
 
 std::optional<Error> scene_pages_lost(std::uint64_t quarantined_pages) {

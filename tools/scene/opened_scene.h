@@ -37,6 +37,13 @@ struct OpenedScene {
 Result<SceneOptions> options_for(const SceneDescription& description, const SceneOptions& wanted,
                                  std::filesystem::path& failed_file);
 
+/// The parts of answers that the model of an instance tells. If it does not tell sides, an answer
+/// with a side is degraded even if all pages are in memory.
+///
+/// index  of the instance in the file
+std::uint32_t parts_told_by(const SceneDescription& description, const OpenedScene& opened,
+                            std::size_t index);
+
 /// The error to report after the answers if pages were unreadable, so that answers are degraded.
 /// Empty if there were none.
 std::optional<Error> scene_pages_lost(std::uint64_t quarantined_pages);

@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "tools/cli/layer_option.h"
 #include "tools/view/scene_facts.h"
 #include "tools/view/view_json.h"
 
@@ -56,13 +55,11 @@ Result<std::string> SceneSource::shape(const ShapeView& view) {
   return shape_.read_bytes(view);
 }
 
-/// The parts that the model of an answer tells. If it does not tell sides, an answer with a side is
-/// degraded even if all pages are in memory.
+/// The parts that the model of an answer tells.
 std::uint32_t SceneSource::parts_at(const PlacedPoint& answer) const {
-  if (answer.instance == PlacedPoint::kNone) return kAllParts;
-  const std::size_t model = description_.instances[answer.instance].model;
-  return parts_told(**opened_.scene.info(opened_.ids[answer.instance]),
-                    description_.models[model].layers, SideRule::kOfFile);
+  return answer.instance == PlacedPoint::kNone
+             ? kAllParts
+             : parts_told_by(description_, opened_, answer.instance);
 }
 
 std::string SceneSource::answer(const PointQuestion& question) {
