@@ -1,12 +1,10 @@
 #include "tools/scene/scene_session.h"
 
-#include <algorithm>
 #include <chrono>
-#include <limits>
+#include <vector>
 
-#include "octree/geometry/rigid_transform.h"
-#include "tools/cli/layer_option.h"
 #include "tools/scene/scene_motion.h"
+#include "tools/scene/world_box.h"
 #include "tools/session/session.h"
 #include "tools/session/touch_tool.h"
 
@@ -18,24 +16,15 @@ std::chrono::nanoseconds period_of(const TouchArguments& arguments) {
          static_cast<std::int64_t>(arguments.rate_hz);
 }
 
-/// The box around all instances where the scene file puts them, in the world's coordinates.
+/// The box around all instances where the scene file puts them.
 PathBox box_of(const SceneDescription& description, const OpenedScene& opened) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  PathBox box{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+  std::vector<WorldBox> boxes;
   for (std::size_t i = 0; i < opened.ids.size(); ++i) {
-    const PathBox core = PathBox::of(**opened.scene.info(opened.ids[i]));
-    const auto transform = octree::RigidTransform::of(description.instances[i].pose);
-    for (unsigned corner = 0; corner < 8; ++corner) {
-      const Vec3 at = transform->apply({(corner & 1U) != 0 ? core.upper.x : core.lower.x,
-                                        (corner & 2U) != 0 ? core.upper.y : core.lower.y,
-                                        (corner & 4U) != 0 ? core.upper.z : core.lower.z});
-      box.lower = {std::min(box.lower.x, at.x), std::min(box.lower.y, at.y),
-                   std::min(box.lower.z, at.z)};
-      box.upper = {std::max(box.upper.x, at.x), std::max(box.upper.y, at.y),
-                   std::max(box.upper.z, at.z)};
-    }
+    const ModelInfo& info = **opened.scene.info(opened.ids[i]);
+    boxes.push_back(moved_box(description.instances[i].pose, {info.core_lower, info.core_upper}));
   }
-  return box;
+  const WorldBox whole = box_around(boxes);
+  return {whole.lower, whole.upper};
 }
 
 std::optional<OpenedScene> open_scene(const TouchArguments& arguments,
@@ -50,11 +39,8 @@ std::optional<OpenedScene> open_scene(const TouchArguments& arguments,
 /// The parts of answers that all models tell.
 std::uint32_t parts_told_by_all(const SceneDescription& description, const OpenedScene& opened) {
   std::uint32_t parts = kAllParts;
-  for (std::size_t i = 0; i < opened.ids.size(); ++i) {
-    const ModelInfo& info = **opened.scene.info(opened.ids[i]);
-    const ModelDescription& model = description.models[description.instances[i].model];
-    parts &= parts_told(info, info.layers & model.layers);
-  }
+  for (std::size_t i = 0; i < opened.ids.size(); ++i)
+    parts &= parts_told_by(description, opened, i);
   return parts;
 }
 

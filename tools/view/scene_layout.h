@@ -2,16 +2,11 @@
 
 #include <vector>
 
-#include "planetree/types.h"
 #include "tools/scene/opened_scene.h"
+#include "tools/scene/world_box.h"
 #include "tools/view/shape_reader.h"
 
 namespace planetree::tools {
-
-/// A box in the world frame.
-struct WorldBox {
-  Vec3 lower, upper;
-};
 
 /// Where a scene is drawn.
 struct SceneLayout {
