@@ -54,7 +54,7 @@ class PageWalk {
   std::uint32_t page() const {
     return pages_.first + static_cast<std::uint32_t>(at_ % pages_.count);
   }
-  const storage::PageEntry& entry() const { return file_.entries()[page()]; }
+  storage::PageEntry entry() const { return *file_.entry(page()); }
 
   const storage::PageFile& file_;
   const Pages pages_;

@@ -56,7 +56,7 @@ class Source {
   Source& operator=(const Source&) = delete;
 
   void read(std::uint32_t page) {
-    const PageEntry& entry = file_.entries()[page];
+    const PageEntry entry = *file_.entry(page);
     if (!map_) {
       if (::pread(descriptor_, out_.data(), entry.stored_bytes, static_cast<off_t>(entry.offset)) <
           0)

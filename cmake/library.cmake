@@ -15,6 +15,7 @@ set(planetree_headers
   eviction_policy.h
   export.h
   layers.h
+  metadata.h
   model.h
   planetree.h
   point_shell.h

@@ -8,6 +8,7 @@
 
 #include "planetree/model.h"
 #include "planetree/stats.h"
+#include "python/errors.h"
 #include "python/model_handle.h"
 #include "python/options.h"
 #include "python/queries.h"
@@ -67,6 +68,17 @@ py::dict info_of(const ModelHandle& handle) {
   return told;
 }
 
+py::dict metadata_of(const ModelHandle& handle) {
+  const auto pinned = handle.get();
+  const Result<Metadata> metadata = [&] {
+    const py::gil_scoped_release unlocked;
+    return pinned->model().metadata();
+  }();
+  py::dict told;
+  for (const auto& [key, text] : value_of(metadata)) told[py::str(key)] = text;
+  return told;
+}
+
 py::dict stats_of(const ModelHandle& handle) {
   const Stats stats = handle.get()->model().stats();
   py::dict told;
@@ -98,6 +110,7 @@ void define_model(py::module_& module) {
       .def("close", &ModelHandle::close)
       .def_property_readonly("is_closed", &ModelHandle::is_closed)
       .def("info", &info_of)
+      .def("metadata", &metadata_of)
       .def("stats", &stats_of);
   define_queries(model);
   define_triangles(model);

@@ -15,6 +15,7 @@
 #include "query/serve/cache_counts.h"
 #include "query/serve/page_accessor.h"
 #include "query/serve/trace_decoder.h"
+#include "storage/file/metadata.h"
 
 namespace planetree {
 namespace query {
@@ -172,6 +173,8 @@ Result<Model> ModelState::open_model(const std::filesystem::path& path, const Op
   return Model(std::move(*state));
 }
 
+Result<Metadata> ModelState::metadata() const { return storage::read_metadata(pager_->file()); }
+
 Result<void> ModelState::find_triangles(std::span<const std::uint64_t> indices,
                                         std::span<MeshTriangle> triangles) const noexcept {
   if (!finder_)
@@ -236,6 +239,7 @@ Model::~Model() = default;
 
 const ModelInfo& Model::info() const noexcept { return state_->info(); }
 Stats Model::stats() const noexcept { return state_->stats(); }
+Result<Metadata> Model::metadata() const { return state_->metadata(); }
 Result<void> Model::triangles(std::span<const std::uint64_t> indices,
                               std::span<MeshTriangle> triangles) const noexcept {
   return state_->find_triangles(indices, triangles);

@@ -61,6 +61,8 @@ class ModelState {
   /// Returns the reader of a new probe, or kBadArgument if all readers are in use.
   Result<cache::Reader> claim_reader() const noexcept { return pager_->cache().claim_reader(); }
   cache::PageCache& cache() const noexcept { return pager_->cache(); }
+  /// See Model::metadata.
+  Result<Metadata> metadata() const;
   /// See Model::triangles.
   Result<void> find_triangles(std::span<const std::uint64_t> indices,
                               std::span<MeshTriangle> triangles) const noexcept;

@@ -21,6 +21,7 @@
 #include "tools/cli/progress.h"
 #include "tools/cli/size_text.h"
 #include "tools/cli/subcommand_options.h"
+#include "tools/report/build_report.h"
 
 namespace planetree::tools {
 namespace {
@@ -98,66 +99,6 @@ class BuildMeter {
   std::uint64_t done_ = 0;
 };
 
-double bytes_per_triangle(const BuildReport& built) {
-  return static_cast<double>(built.file_bytes) / static_cast<double>(built.triangles);
-}
-
-std::string json_report(const BuildArguments& arguments, const BuildReport& built, double seconds,
-                        const BuildMeter& meter, const std::string& sha256) {
-  nlohmann::ordered_json report = {
-      {"input", arguments.input.string()},
-      {"file", arguments.output.string()},
-      {"triangles", built.triangles},
-      {"input_triangles", built.input_triangles},
-      {"skipped", built.skipped},
-      {"first_skipped", nullptr},
-      {"nonplanar_polygons", built.nonplanar_polygons},
-      {"fanned_polygons", built.fanned_polygons},
-      {"notes", built.notes},
-      {"vertices", built.vertices},
-      {"watertight", built.watertight()},
-      {"unbalanced_edges", built.unbalanced_edges},
-      {"side_rule", built.side_rule == SideRule::kSurface ? "surface" : "solid"},
-      {"openness", built.openness},
-      {"layers", layer_words(built.layers)},
-      {"attributes", attribute_words(built.attributes)},
-      {"levels", built.levels},
-      {"nodes", built.nodes},
-      {"blocks", built.blocks},
-      {"pages", built.pages},
-      {"page_bytes", arguments.options.page_bytes},
-      {"file_bytes", built.file_bytes},
-      {"bytes_per_triangle", bytes_per_triangle(built)},
-      {"seconds", seconds},
-      {"seconds_by_phase", meter.seconds()},
-      {"triangles_per_second", static_cast<double>(built.input_triangles) / seconds},
-      {"peak_resident_bytes", built.peak_resident_bytes},
-      {"temporary_bytes", built.temporary_bytes},
-      {"sha256", sha256},
-      {"content_id", content_id_text(built.content_id)}};
-  if (built.first_skipped != kNoTriangle) report["first_skipped"] = built.first_skipped;
-  return json_line(report);
-}
-
-std::string plain_report(const BuildArguments& arguments, const BuildReport& built,
-                         double seconds) {
-  const std::string part =
-      arguments.options.box ? " of " + grouped_count(built.input_triangles) : std::string();
-  const std::string surface = built.watertight()
-                                  ? "watertight"
-                                  : grouped_count(built.unbalanced_edges) + " unbalanced edges";
-  const std::string sheet = built.side_rule == SideRule::kSurface ? ", a sheet" : "";
-  const std::string strays =
-      built.strays > 0 ? grouped_count(built.strays) + " of them far outside, " : std::string();
-  return fmt::format(
-      "{}: {}{} triangles, {}{}, {} in {} pages ({:.1f} bytes a triangle), in {:.1f} s ({} "
-      "triangles/s), {} peak memory\n",
-      arguments.output.string(), grouped_count(built.triangles), part, strays, surface + sheet,
-      short_bytes(built.file_bytes), grouped_count(built.pages), bytes_per_triangle(built), seconds,
-      short_count(static_cast<double>(built.input_triangles) / seconds),
-      short_bytes(built.peak_resident_bytes));
-}
-
 void warn_of_skipped(const BuildArguments& arguments, const BuildReport& report, Console& console) {
   if (report.skipped == 0) return;
   console.warn(arguments.input.string(),
@@ -209,6 +150,33 @@ Box box_of(const std::string& text) {
   return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
 }
 
+std::string meta_complaint(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals != std::string::npos && equals > 0) return {};
+  return fmt::format("'{}' is not KEY=TEXT, such as title=Statue", octree::printable(text));
+}
+
+// --unit, --up, --crs and --meta.
+void add_metadata(SubcommandOptions& subcommand, Metadata& metadata,
+                  std::vector<std::string>& others) {
+  const auto accept = [](const std::string&) { return std::string(); };
+  const auto set = [&metadata](const char* key) {
+    return [&metadata, key](const std::string& text) { metadata[key] = text; };
+  };
+  subcommand.text("--unit", "UNIT", accept, set("unit"),
+                  "Unit of length of the mesh, such as mm, m or ft, which the file states. No "
+                  "answer depends on it");
+  subcommand.word("--up", {"x", "y", "z", "-x", "-y", "-z"}, set("up"),
+                  "Axis that points up, which the file states. No answer depends on it");
+  subcommand.text("--crs", "CRS", accept, set("crs"),
+                  "Coordinate reference system of the mesh, such as EPSG:25832, which the file "
+                  "states. No answer depends on it");
+  subcommand.texts("--meta", "KEY=TEXT", meta_complaint, others,
+                   "Further text that the file states, such as title, description, licence or "
+                   "source; it may be given several times. generator= without a text leaves out "
+                   "the program's name and version");
+}
+
 std::string memory_complaint(std::uint64_t bytes) {
   constexpr std::uint64_t kMin = BuildOptions::kMinMemoryBytes;
   if (bytes == 0 || bytes >= kMin) return {};
@@ -228,13 +196,15 @@ int run_build(const BuildArguments& arguments, Console& console) {
   for (const std::string& note : report->notes) console.warn(arguments.input.string(), note);
   warn_of_skipped(arguments, *report, console);
   warn_of_odd_polygons(arguments, *report, console);
+  const BuildRecord record{arguments.input, arguments.output, arguments.options,
+                           *report,         seconds,          meter.seconds()};
   if (!arguments.json) {
-    console.print(plain_report(arguments, *report, seconds));
+    console.print(plain_report(record));
     return console.finish(kDone);
   }
   const auto sha256 = sha256_of_file(arguments.output);
   if (!sha256) return console.fail(arguments.output.string(), sha256.error());
-  console.print(json_report(arguments, *report, seconds, meter, *sha256));
+  console.print(json_report(record, *sha256));
   return console.finish(kDone);
 }
 
@@ -243,6 +213,7 @@ void add_build(CLI::App& app, Console& console, std::function<int()>& action) {
     BuildArguments arguments;
     std::uint64_t threads = 0;
     std::uint64_t page_bytes = BuildOptions{}.page_bytes;
+    std::vector<std::string> metadata;
   };
   const auto options = std::make_shared<Options>();
   BuildArguments& arguments = options->arguments;
@@ -308,6 +279,7 @@ void add_build(CLI::App& app, Console& console, std::function<int()>& action) {
       "--float64", arguments.options.float64,
       "Read coordinates that an ascii PLY declares as floats as doubles, with all their "
       "digits. The file is larger then");
+  add_metadata(subcommand, arguments.options.metadata, options->metadata);
   subcommand.flag("--strict", arguments.options.strict,
                   "Refuse a mesh with bad records (a vertex that is not finite, an index out of "
                   "range, fewer than 3 corners) instead of skipping them");
@@ -318,6 +290,10 @@ void add_build(CLI::App& app, Console& console, std::function<int()>& action) {
   subcommand.on_given([options, keep, &console, &action] {
     options->arguments.options.threads = static_cast<unsigned>(options->threads);
     options->arguments.options.page_bytes = static_cast<std::uint32_t>(options->page_bytes);
+    for (const std::string& text : options->metadata) {
+      const std::size_t equals = text.find('=');
+      options->arguments.options.metadata[text.substr(0, equals)] = text.substr(equals + 1);
+    }
     action = [options, &console] { return run_build(options->arguments, console); };
     for (const std::string& complaint : {page_size_complaint(options->page_bytes),
                                          memory_complaint(options->arguments.options.memory_bytes),

@@ -13,6 +13,7 @@
 #include "octree/builder/mesh/stream/mesh_text.h"
 #include "storage/file/file_layout.h"
 #include "tools/build.h"
+#include "tools/cli/file_text.h"
 #include "tools/compare.h"
 #include "tools/generate.h"
 #include "tools/inspect.h"
@@ -30,8 +31,8 @@
 namespace planetree::tools {
 namespace {
 
-const std::string kVersion =
-    fmt::format("planetree {} (file format {})", PLANETREE_VERSION, storage::kFormatVersion);
+const std::string kVersion = fmt::format("planetree {} (file format {})", PLANETREE_VERSION,
+                                         format_version_text(storage::kFormatVersion));
 
 /// The command line and, once it is parsed, what to do.
 struct CommandLine {

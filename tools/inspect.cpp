@@ -16,6 +16,7 @@
 #include "tools/report/explanation.h"
 #include "tools/report/file_survey.h"
 #include "tools/report/inspect_page.h"
+#include "tools/report/level_report.h"
 #include "tools/report/page_report.h"
 #include "tools/report/summary_report.h"
 #include "tools/slice/show_slice.h"
@@ -179,7 +180,6 @@ int Inspection::show_nodes() {
     Json json = {{"page", page},
                  {"octcode", fmt::format("0x{:016x}", entry.octcode)},
                  {"cell", cell_text(entry.octcode)},
-                 {"ordinal", entry.ordinal},
                  {"nodes", Json::array()}};
     std::optional<Issue> issue = parts_.load_page(page);
     if (issue)
@@ -198,9 +198,9 @@ int Inspection::show_nodes() {
     return console_.finish(issues.count() > 0 ? kDataAtFault : kDone);
   }
   for (const Json& page : pages)
-    console_.print(fmt::format("page {} at {} ({}), ordinal {}\n{}", page["page"].dump(),
+    console_.print(fmt::format("page {} at {} ({})\n{}", page["page"].dump(),
                                page["cell"].get<std::string>(), page["octcode"].get<std::string>(),
-                               page["ordinal"].dump(), nodes_text(page["nodes"])));
+                               nodes_text(page["nodes"])));
   return console_.finish(print_issues(issues));
 }
 
@@ -246,7 +246,7 @@ int run_inspect(const InspectArguments& arguments, Console& console) {
   auto parts = FileParts::open(arguments.file);
   if (!parts) return console.fail(file, parts.error());
   Inspection inspection(arguments, console, *parts);
-  // A file without a readable header or page table has no pages to show.
+  // A file without a readable header or directory has no pages to show.
   const bool has_pages = parts->page_count() > 0;
   if (arguments.node && has_pages) return inspection.show_nodes();
   if (!arguments.page || !has_pages) return inspection.show_all();

@@ -19,6 +19,7 @@
 #include "planetree/error.h"
 #include "planetree/export.h"
 #include "planetree/layers.h"
+#include "planetree/metadata.h"
 #include "planetree/types.h"
 
 /// @file
@@ -148,7 +149,7 @@ enum class SideChoice : std::uint8_t {
 };
 
 /// Options of build(). Of these, only `page_bytes`, `box`, `side`, `layers`, `keep`,
-/// `value_property` and `float64` change the bytes of the file.
+/// `value_property`, `float64` and `metadata` change the bytes of the file.
 struct BuildOptions {
   /// Maximum memory of the build in bytes, at least kMinMemoryBytes. It limits the resident memory
   /// of the whole process if the rest of the program takes less than 64 MiB. Arrays of a BuildInput
@@ -192,6 +193,9 @@ struct BuildOptions {
   /// Reads coordinates that an ascii PLY declares as floats as doubles, with all their digits.
   /// Other text formats declare no type; their coordinates are always read as doubles.
   bool float64 = false;
+  /// What the file says of the model; see Metadata. `generator` is set to the release of planetree
+  /// unless it is given. A key with an empty value is left out.
+  Metadata metadata;
   bool strict = false;   ///< a record that would be skipped is an error
   bool replace = false;  ///< an existing output may be replaced
 
@@ -264,8 +268,8 @@ struct BuildReport {
 /// Builds the .ptree file of a mesh. The file appears under its name when it is complete. After an
 /// error or a cancelled build an earlier file of that name is unchanged, and no new file is left,
 /// except for the checkpoint of BuildOptions::resume. The bytes of the file depend on the input,
-/// `page_bytes`, `box`, `side`, `layers`, `keep`, `value_property`, `float64`, and the releases of
-/// planetree and LZ4, and on nothing else.
+/// `page_bytes`, `box`, `side`, `layers`, `keep`, `value_property`, `float64`, `metadata`, and the
+/// releases of planetree and LZ4, and on nothing else.
 ///
 /// input    triangles in any order. Records that cannot be used are skipped and counted.
 /// output   the file. Its directory must exist.

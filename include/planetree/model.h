@@ -11,6 +11,7 @@
 #include "planetree/eviction_policy.h"
 #include "planetree/export.h"
 #include "planetree/layers.h"
+#include "planetree/metadata.h"
 #include "planetree/stats.h"
 #include "planetree/trace.h"
 
@@ -181,6 +182,14 @@ class PLANETREE_API Model {
                          std::span<MeshTriangle> triangles) const noexcept;
   /// Returns one triangle, in the same way.
   Result<MeshTriangle> triangle(std::uint64_t index) const noexcept;
+
+  /// Reads what the file says of the model, such as its unit and its coordinate reference system.
+  /// Empty if it says nothing. No answer depends on it.
+  ///
+  /// errors   kReadFailed, kTruncated: the system cannot read it. kDamaged: its hash or its form is
+  ///          wrong. kNoMemory.
+  /// threads  any, but not real-time threads: allocates, and waits for the disk.
+  Result<Metadata> metadata() const;
 
  private:
   friend class Probe;

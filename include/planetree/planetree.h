@@ -14,6 +14,7 @@
 #include "planetree/eviction_policy.h"
 #include "planetree/export.h"
 #include "planetree/layers.h"
+#include "planetree/metadata.h"
 #include "planetree/model.h"
 #include "planetree/point_shell.h"
 #include "planetree/pose.h"

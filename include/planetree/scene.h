@@ -92,12 +92,12 @@ struct SceneStats {
 
 /// What one model of a scene holds besides its pages, in bytes of the budget.
 struct ModelMemory {
-  std::uint64_t total = 0;       ///< sum of all members below
-  std::uint64_t page_table = 0;  ///< entries of the file's pages
-  std::uint64_t side_grid = 0;   ///< grids of the side layer
-  std::uint64_t field = 0;       ///< coarse field: the field layer
-  std::uint64_t probes = 0;      ///< coherence and fetch requests of all probes and fetch threads
-  std::uint64_t other = 0;       ///< the rest
+  std::uint64_t total = 0;      ///< sum of all members below
+  std::uint64_t directory = 0;  ///< where the file's pages are
+  std::uint64_t side_grid = 0;  ///< grids of the side layer
+  std::uint64_t field = 0;      ///< coarse field: the field layer
+  std::uint64_t probes = 0;     ///< coherence and fetch requests of all probes and fetch threads
+  std::uint64_t other = 0;      ///< the rest
 };
 
 /// Models in places. Any number of threads may query a scene, each with a SceneProbe of its own,

@@ -60,12 +60,13 @@ struct ModelInfo {
   /// Stored bytes of each part of the file. They add up to `file_bytes`.
   struct {
     std::uint64_t headers = 0;          ///< header and its copy
-    std::uint64_t page_table = 0;       ///< page table
+    std::uint64_t directory = 0;        ///< where the pages are, and their hashes
     std::uint64_t distance_pages = 0;   ///< pages of the tree
     std::uint64_t cap_pages = 0;        ///< pages of the caps that close the surface
     std::uint64_t field_pages = 0;      ///< pages of the coarse field
     std::uint64_t attribute_pages = 0;  ///< pages of the attributes of triangles
     std::uint64_t mask_pages = 0;       ///< pages of the mask
+    std::uint64_t extensions = 0;       ///< metadata and other bytes with a name
   } section_bytes;                      ///< stored bytes of each part
   std::uint64_t content_id[2] = {};     ///< hash over the hashes of all pages, low word first
 

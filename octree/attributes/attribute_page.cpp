@@ -14,10 +14,21 @@ void join(std::span<const std::byte> split, std::size_t count, std::size_t eleme
     for (std::size_t i = 0; i < count; ++i) to[i * element_bytes + k] = split[k * count + i];
 }
 
-bool leads_to_block(std::uint32_t link, const PageInfo& info) {
-  const LinkFormat links(info.page_bytes);
-  return LinkFormat::is_leaf(link) && links.page(link) < info.tree_pages &&
-         links.slot(link) >= frame_head_slots(info.page_bytes);
+/// Writes the links of all triangles to `links`. Returns null, or a fault.
+const char* decode_links(ByteSplit<std::uint32_t> pages, ByteSplit<std::uint16_t> numbers,
+                         const PageInfo& info, std::byte* links) {
+  const LinkFormat format(info.page_bytes);
+  for (std::size_t i = 0; i < pages.size(); ++i) {
+    const StoredLink block = {pages[i], numbers[i]};
+    std::uint32_t link = kNoLink;
+    if (block != kNoStoredLink) {
+      if (block.page >= info.tree_pages || block.record >= max_page_blocks(info.page_bytes))
+        return "a link does not lead to a block of the tree";
+      link = format.make_numbered(block);
+    }
+    std::memcpy(links + i * sizeof link, &link, sizeof link);
+  }
+  return nullptr;
 }
 
 const char* check_head(const AttributePageHead& head, const PageInfo& info, std::uint32_t count) {
@@ -35,7 +46,10 @@ const char* decode(std::span<const std::byte> raw, const PageInfo& info, Attribu
   std::memcpy(&head, raw.data(), sizeof head);
   if (const char* const fault = check_head(head, info, count)) return fault;
   StreamReader layout(raw.subspan(sizeof head));
-  const auto links = layout.take_bytes(count * AttributeShape::kLinkBytes);
+  ByteSplit<std::uint32_t> block_pages;
+  ByteSplit<std::uint16_t> block_numbers;
+  layout.take(block_pages, count);
+  layout.take(block_numbers, count);
   const auto colors =
       layout.take_bytes(shape.has_colors() ? count * AttributeShape::kColorBytes : 0);
   const auto uvs = layout.take_bytes(shape.has_uvs() ? count * AttributeShape::kUvBytes : 0);
@@ -45,8 +59,6 @@ const char* decode(std::span<const std::byte> raw, const PageInfo& info, Attribu
   if (!layout.empty()) return "the page is longer than its counts say";
   std::memset(frame.data(), 0, AttributeShape::kHeadBytes);
   std::memcpy(frame.data(), &head, sizeof head);
-  join(links, count, AttributeShape::kLinkBytes,
-       frame.data() + AttributeView::links_at(shape, count));
   if (shape.has_colors())
     join(colors, count, AttributeShape::kColorBytes,
          frame.data() + AttributeView::colors_at(shape, count));
@@ -56,11 +68,8 @@ const char* decode(std::span<const std::byte> raw, const PageInfo& info, Attribu
          frame.data() + AttributeView::uvs_at(shape, count));
   if (shape.has_values())
     join(values, count, AttributeShape::kValueBytes, frame.data() + AttributeShape::kHeadBytes);
-  const AttributeView view(frame.data(), shape);
-  for (std::uint32_t i = 0; i < count; ++i)
-    if (view.link(i) != kNoLink && !leads_to_block(view.link(i), info))
-      return "a link does not lead to a block of the tree";
-  return nullptr;
+  return decode_links(block_pages, block_numbers, info,
+                      frame.data() + AttributeView::links_at(shape, count));
 }
 
 }  // namespace

@@ -11,13 +11,14 @@
 #include "planetree/error.h"
 
 /// The raw bytes of an attribute page, specified in format-spec/v1/spec.md, "Attribute page": a
-/// head, then these streams, without padding and byte-stream split. Each of them but the links is
-/// there if the file keeps the attribute:
+/// head, then these streams, without padding and byte-stream split. Each of them but the first two
+/// is there if the file keeps the attribute:
 ///
-///     links     u32 a triangle: the block that has it, or kNoLink
-///     colours   u8 x 12 a triangle: red, green, blue and alpha of its corners
-///     uvs       float x 6 a triangle: u and v of its corners
-///     values    u64 a triangle
+///     triangle pages   u32 a triangle: page of the block that has it
+///     triangle blocks  u16 a triangle: number of that block in its page
+///     colours          u8 x 12 a triangle: red, green, blue and alpha of its corners
+///     uvs              float x 6 a triangle: u and v of its corners
+///     values           u64 a triangle
 ///
 /// The triangles of all pages together are those of all indices, in their order.
 namespace planetree::octree {
@@ -31,8 +32,9 @@ struct AttributePageHead {
 };
 static_assert(sizeof(AttributePageHead) == 24);
 
-/// Link of an index without a triangle in the file.
+/// Link of an index without a triangle in the file, in a frame and as stored.
 inline constexpr std::uint32_t kNoLink = ~std::uint32_t{0};
+inline constexpr StoredLink kNoStoredLink = {0xffffffff, 0xffff};
 
 /// What the attribute pages of a file have for each triangle, and where a decoded page has it.
 ///
@@ -40,13 +42,14 @@ inline constexpr std::uint32_t kNoLink = ~std::uint32_t{0};
 struct AttributeShape {
   static constexpr std::size_t kHeadBytes = 64;
   static constexpr std::size_t kLinkBytes = 4, kColorBytes = 12, kUvBytes = 24, kValueBytes = 8;
+  static constexpr std::size_t kStoredLinkBytes = 6;  ///< a frame has a link in kLinkBytes
 
   std::uint32_t kept = 0;
 
   constexpr bool has_colors() const { return (kept & kKeepColor) != 0; }
   constexpr bool has_uvs() const { return (kept & kKeepUv) != 0; }
   constexpr bool has_values() const { return (kept & kKeepValue) != 0; }
-  /// Bytes of one triangle.
+  /// Bytes of one triangle in a frame.
   constexpr std::size_t triangle_bytes() const { return kLinkBytes + extra_bytes(); }
   /// Bytes of one triangle beside its link: colours, uvs and value, in this order.
   constexpr std::size_t extra_bytes() const {
@@ -71,6 +74,7 @@ class AttributeView {
   }
 
   std::uint32_t count() const { return count_; }
+  /// Returns the numbered link (LinkFormat) of the block that has a triangle, or kNoLink.
   std::uint32_t link(std::uint32_t triangle) const {
     return at<std::uint32_t>(links_at(shape_, count_), triangle);
   }
@@ -118,7 +122,7 @@ static_assert(sizeof(std::array<TextureCoordinate, 3>) == AttributeShape::kUvByt
 /// count    triangles that the page must have, at most shape.triangles_per_page()
 /// frame    info.page_bytes bytes; undefined after an error
 /// return   on success, every link is kNoLink or that of a block of a distance page by its form;
-///          whether a block begins there is not known
+///          whether the page has that block is not known
 /// errors   kDamaged, naming the page and the fault
 /// threads  any; no allocation, no exception
 Result<void> decode_attribute_page(std::span<const std::byte> raw, const PageInfo& info,

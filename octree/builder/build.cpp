@@ -16,6 +16,7 @@
 #include "octree/geometry/fp_environment.h"
 #include "octree/geometry/startup_check.h"
 #include "storage/file/file_layout.h"
+#include "storage/file/metadata.h"
 #include "storage/system/file_error.h"
 
 namespace planetree {
@@ -114,6 +115,13 @@ Result<void> check_output(const BuildInput& input, const fs::path& output, bool 
   return {};
 }
 
+// The metadata of the file: the generator is added, and what is empty is left out.
+Metadata complete_metadata(Metadata given) {
+  given.try_emplace("generator", "planetree " PLANETREE_VERSION);
+  std::erase_if(given, [](const auto& entry) { return entry.second.empty(); });
+  return given;
+}
+
 octree::BuildOptions inner_options(const BuildOptions& options) {
   octree::BuildOptions inner;
   inner.page_bytes = options.page_bytes;
@@ -131,6 +139,7 @@ octree::BuildOptions inner_options(const BuildOptions& options) {
   inner.replace = options.replace;
   if (options.box) inner.box = {options.box->lower, options.box->upper};
   inner.resume = options.resume;
+  inner.metadata = complete_metadata(options.metadata);
   return inner;
 }
 
@@ -188,6 +197,8 @@ Result<BuildReport> build_checked(const BuildInput& input, const fs::path& outpu
   if (const auto checked = check_output(input, output, options.replace); !checked)
     return refuse(output, checked.error());
   const octree::BuildOptions inner = inner_options(options);
+  if (const auto checked = storage::check_metadata(inner.metadata); !checked)
+    return refuse({}, checked.error());
   const fs::path temporary = inner.spill_directory(output);
   if (std::error_code ignored; !fs::is_directory(temporary, ignored))
     return refuse(temporary, error_of(ErrorCode::kNotFound,

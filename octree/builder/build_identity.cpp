@@ -18,7 +18,7 @@ namespace planetree::octree {
 namespace {
 
 /// To be raised with every change of the records or of what trees consist of.
-constexpr int kWorkVersion = 9;
+constexpr int kWorkVersion = 10;
 
 constexpr std::uint64_t kSampleBlocks = 64;
 constexpr std::uint64_t kBlockBytes = 4096;
@@ -34,7 +34,7 @@ Error input_error(const char* what) {
 
 // Hashes blocks that are spread from the first byte to the last; all of a small file.
 Result<storage::Hash128> sample_of(const storage::FileHandle& file, std::uint64_t file_bytes) {
-  storage::Hasher128 hasher;
+  storage::Hasher hasher;
   std::vector<std::byte> block(kBlockBytes);
   const std::uint64_t last = file_bytes - std::min(file_bytes, kBlockBytes);
   std::uint64_t next = 0;  // bytes before it are in the sample
@@ -81,7 +81,7 @@ Result<BuildIdentity> identity_of(const std::filesystem::path& input, storage::F
   const auto side_files = side_files_of(input, calls);
   if (!side_files) return side_files.error();
   if (side_files->empty()) return identity;
-  storage::Hasher128 hasher;
+  storage::Hasher hasher;
   const auto add = [&hasher](const BuildIdentity& of) {
     const std::array<std::uint64_t, 6> numbers = {
         of.input_bytes,
@@ -105,7 +105,7 @@ Result<BuildIdentity> identity_of(const std::filesystem::path& input, storage::F
 
 template <class Vertex>
 BuildIdentity identity_of(const BuildInput::Mesh<Vertex>& mesh) {
-  storage::Hasher128 hasher;
+  storage::Hasher hasher;
   hasher.add(std::as_bytes(mesh.vertices));
   hasher.add(std::as_bytes(mesh.triangles));
   hasher.add(std::as_bytes(mesh.colors));

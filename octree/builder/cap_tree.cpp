@@ -64,7 +64,8 @@ Result<void> CapTree::build(MaskSectors& sectors, std::uint64_t max_triangles) {
     for (std::uint32_t i = 0; i < caps->size(); ++i)
       visitors.add({caps->code(i) | kStrayCode, kCapIndex | caps->index(i)}, caps->corners(i));
     if (const auto added = sectors.add(visitors); !added) return added.error();
-    auto built = build_chunk(*caps, frame_.centre(), shape_, page_bytes_, pages_);
+    auto built =
+        build_chunk(*caps, chunks_.size() == 1, frame_.centre(), shape_, page_bytes_, pages_);
     if (!built) return built.error();
     chunks_[at] = *std::move(built);
     return {};
@@ -85,7 +86,6 @@ void CapTree::describe(storage::ModelRecord& model) const {
   model.cap_block_count = tree_->block_count();
   model.cap_height = static_cast<std::uint8_t>(tree_->height());
   model.cap_page_count = tree_->pages().size();
-  model.cap_root_link = tree_->pages().root_link();
 }
 
 }  // namespace planetree::octree

@@ -65,7 +65,6 @@ bool Checkpoint::restore_identity(const BuildIdentity& identity,
   if (!read_record(payload, earlier)) earlier = {};
   refusal_ = identity.change_since(earlier);
   identified_ = refusal_ == nullptr;
-  page_bytes_ = identity.page_bytes;
   return identified_;
 }
 
@@ -94,8 +93,7 @@ bool Checkpoint::restore_surface(std::span<const std::byte> payload, SpillExtent
 bool Checkpoint::restore_chunk(std::span<const std::byte> payload, SpillExtent& extent) {
   std::uint32_t number = 0;
   ChunkWork chunk;
-  if (!read_record(payload, number, chunk) ||
-      !extent.take(chunk, mesh_->frame.float64, LinkFormat(page_bytes_)))
+  if (!read_record(payload, number, chunk) || !extent.take(chunk, mesh_->frame.float64))
     return false;
   chunks_.insert_or_assign(number, std::move(chunk));
   return true;
@@ -104,9 +102,7 @@ bool Checkpoint::restore_chunk(std::span<const std::byte> payload, SpillExtent& 
 bool Checkpoint::restore_sector(std::span<const std::byte> payload, SpillExtent& extent) {
   std::uint32_t number = 0;
   BuiltSector sector;
-  if (!read_record(payload, number, sector) ||
-      !extent.take(number, sector, MaskLinkFormat(page_bytes_)))
-    return false;
+  if (!read_record(payload, number, sector) || !extent.take(number, sector)) return false;
   sectors_.insert_or_assign(number, std::move(sector));
   return true;
 }

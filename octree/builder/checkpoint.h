@@ -87,7 +87,6 @@ class Checkpoint {
   std::optional<SurfaceWork> surface_;
   std::map<std::uint32_t, ChunkWork> chunks_;
   std::map<std::uint32_t, BuiltSector> sectors_;
-  std::uint32_t page_bytes_ = 0;
   std::uint64_t resumed_bytes_ = 0;
   bool removable_ = false;  // there is no work to resume
 };

@@ -278,8 +278,8 @@ Result<void> TreeBuild::build(std::size_t number, Triangles& triangles) {
     if (!part) return part.error();
     chunk.part = *std::move(part);
   }
-  auto built = build_chunk(triangles, model_.frame.centre(), model_.shape, options_.page_bytes,
-                           files_.pages());
+  auto built = build_chunk(triangles, model_.chunks.size() == 1, model_.frame.centre(),
+                           model_.shape, options_.page_bytes, files_.pages());
   if (!built) return built.error();
   chunk.built = *std::move(built);
   if (const auto kept = keep(static_cast<std::uint32_t>(number), chunk); !kept) return kept;

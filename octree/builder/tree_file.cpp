@@ -1,11 +1,13 @@
 #include "octree/builder/tree_file.h"
 
+#include <limits>
 #include <optional>
 
 #include "octree/builder/mask/height_field_marks.h"
 #include "octree/builder/tree/page_appender.h"
 #include "octree/geometry/area_sums.h"
 #include "octree/geometry/strict_math.h"
+#include "storage/file/metadata.h"
 #include "storage/file/page_writer.h"
 
 namespace planetree::octree {
@@ -66,7 +68,6 @@ void describe_tree(const BuiltModel& built, const BuiltTree& tree, storage::Mode
   model.node_count = tree.node_count();
   model.block_count = tree.block_count();
   model.height = static_cast<std::uint8_t>(tree.height());
-  model.root_link = tree.pages().root_link();
   if (!built.mask) return;
   model.mask_page_count = built.mask->size();
   model.mask_cell_count = built.mask->cell_count();
@@ -90,7 +91,7 @@ storage::ModelRecord describe(const BuiltModel& built, const BuiltTree& tree, co
 Result<std::uint32_t> count_attribute_pages(const BuiltModel& built, std::uint32_t others,
                                             const BuildOptions& options) {
   const std::uint64_t count = built.attributes.page_count(options.page_bytes);
-  if (count <= LinkFormat(options.page_bytes).max_pages() - others)
+  if (count <= std::numeric_limits<std::uint32_t>::max() - others)
     return static_cast<std::uint32_t>(count);
   return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
                     "%llu pages of attributes, more than a file has; build with a larger page size",
@@ -112,7 +113,8 @@ Result<storage::FileHeader> write_tree(const BuiltModel& built, const BuiltTree&
   if (!attribute_pages) return attribute_pages.error();
   const std::uint32_t first_mask_page = first_attribute_page + *attribute_pages;
   const std::uint32_t page_count = first_mask_page + mask_pages;
-  auto writer = storage::PageWriter::create(output, page_count, options.replace, calls);
+  auto writer = storage::PageWriter::create(
+      output, page_count, storage::extensions_of(options.metadata), options.replace, calls);
   if (!writer) return writer.error();
   PageAppender appender(*writer, progress, page_count);
   // Triangles beyond a wall may touch the lines that prove a height field.

@@ -51,29 +51,26 @@ bool SpillExtent::take(const SurfaceWork& surface, bool float64) {
 
 bool SpillExtent::take(const std::vector<SpilledPage>& pages, std::size_t head_bytes) {
   return std::ranges::all_of(pages, [&](const SpilledPage& page) {
-    const std::uint64_t links_end =
-        page.links_at + std::uint64_t{page.link_count} * sizeof(std::uint32_t);
+    const std::uint64_t links_end = page.links_at + std::uint64_t{page.link_count} * kPageLinkBytes;
     return links_end <= page.raw_bytes && head_bytes <= page.raw_bytes &&
            take(page.offset, page.raw_bytes, 1);
   });
 }
 
-bool SpillExtent::take(const ChunkWork& chunk, bool float64, const LinkFormat& links) {
+bool SpillExtent::take(const ChunkWork& chunk, bool float64) {
   const BuiltChunk& built = chunk.built;
-  return take(built.pages, sizeof(PageHead)) && links.page(built.root_link) < built.pages.size() &&
+  return take(built.pages, sizeof(PageHead)) && !built.pages.empty() &&
          !built.boxes_below.empty() && take(chunk.part.visitors, float64);
 }
 
-bool SpillExtent::take(std::uint32_t number, const BuiltSector& sector,
-                       const MaskLinkFormat& links) {
+bool SpillExtent::take(std::uint32_t number, const BuiltSector& sector) {
   const MaskEntry& entry = sector.root.entry;
   const bool special = entry.kind == MaskEntry::Kind::kSpecial;
   if (special != sector.root.special.has_value() ||
       (special && sector.root.special->plane_count > kMaxPlanes))
     return false;
   const bool divided = entry.kind == MaskEntry::Kind::kSector;
-  if (divided && (entry.first != number || links.page(sector.family) >= sector.pages.size()))
-    return false;
+  if (divided && (entry.first != number || sector.pages.empty())) return false;
   return (divided || entry.is_leaf()) && take(sector.pages, sizeof(MaskPageHead));
 }
 

@@ -40,8 +40,8 @@ class SpillExtent {
 
   bool take(const OrderedMesh& mesh);
   bool take(const SurfaceWork& surface, bool float64);
-  bool take(const ChunkWork& chunk, bool float64, const LinkFormat& links);
-  bool take(std::uint32_t number, const BuiltSector& sector, const MaskLinkFormat& links);
+  bool take(const ChunkWork& chunk, bool float64);
+  bool take(std::uint32_t number, const BuiltSector& sector);
   /// End of the parts that were taken, and the sum of their lengths.
   std::uint64_t end() const { return end_; }
   std::uint64_t bytes() const { return bytes_; }
@@ -128,8 +128,8 @@ void fields(Record& record, Value& sums) {
 
 template <class Record, IsA<BuiltChunk> Value>
 void fields(Record& record, Value& chunk) {
-  record(chunk.pages, chunk.root_link, chunk.height, chunk.node_count, chunk.block_count,
-         chunk.min_code, chunk.greatest_code, chunk.box, chunk.boxes_below, chunk.area, chunk.sums);
+  record(chunk.pages, chunk.height, chunk.node_count, chunk.block_count, chunk.min_code,
+         chunk.greatest_code, chunk.box, chunk.boxes_below, chunk.area, chunk.sums);
 }
 
 template <class Record, IsA<MaskSectors::Rise> Value>
@@ -160,7 +160,7 @@ void fields(Record& record, Value& root) {
 
 template <class Record, IsA<BuiltSector> Value>
 void fields(Record& record, Value& sector) {
-  record(sector.pages, sector.family, sector.cell_count, sector.levels, sector.root);
+  record(sector.pages, sector.cell_count, sector.levels, sector.root);
 }
 
 template <class Record, IsA<ChunkWork> Value>

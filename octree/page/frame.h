@@ -1,19 +1,19 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 
 #include "octree/geometry/child_bounds.h"
 #include "octree/geometry/tree_limits.h"
 #include "octree/geometry/triangle_distance.h"
+#include "octree/page/link.h"
 
 /// The serving layout: a decoded distance page in its frame. It is never stored;
 /// format-spec/v1/spec.md, "Distance page", specifies the stored form.
 ///
 ///     slot 0            FrameHeader
-///     slot 1 ...        block starts, one bit a slot
+///     slot 1 ...        slot of each block, 16 bits each; 0 behind the last block (BlockTable)
 ///     first node slot   nodes, 5 slots each, subtree roots first, then breadth first; 7 slots if
 ///                       each node is followed by its moments (octree/page/moments.h)
 ///     ...               blocks, in the order in which their parents link to them
@@ -22,8 +22,6 @@
 /// cache line.
 namespace planetree::octree {
 
-inline constexpr std::size_t kSlotBytes = 64;
-
 struct FrameHeader {
   std::uint32_t page_number;
   std::uint32_t used_bytes;
@@ -31,12 +29,11 @@ struct FrameHeader {
   std::uint32_t ordinal;
   std::uint16_t node_count;
   std::uint16_t block_count;
-  std::uint16_t root_node_count;
-  std::uint16_t root_block_count;
+  std::uint16_t root_count;  ///< nodes at the front that are roots of subtrees
   std::uint16_t first_node_slot;
   std::uint16_t first_block_slot;
   std::uint16_t page_link_count;  ///< links to other pages
-  std::uint8_t reserved[30];
+  std::uint8_t reserved[32];
 };
 static_assert(sizeof(FrameHeader) == kSlotBytes);
 
@@ -175,33 +172,19 @@ struct BlockShape {
 
 inline unsigned BlockHeader::stride() const { return BlockShape::stride(vertex_count()); }
 
-/// Layout of a link, the 32-bit address of a child: [leaf 1][page 31 - s][slot s], where s is
-/// log2(page bytes / 64).
-class LinkFormat {
- public:
-  explicit constexpr LinkFormat(std::uint32_t page_bytes)
-      : slot_bits_(static_cast<unsigned>(std::countr_zero(page_bytes)) - 6) {}
+static_assert(BlockShape{}.slots(1, true) == kMinBlockSlots);
 
-  static constexpr std::uint32_t kLeafBit = std::uint32_t{1} << 31;
-  static constexpr bool is_leaf(std::uint32_t link) { return (link & kLeafBit) != 0; }
-  constexpr std::uint32_t page(std::uint32_t link) const {
-    return (link & ~kLeafBit) >> slot_bits_;
-  }
-  constexpr std::uint32_t slot(std::uint32_t link) const { return link & slot_mask(); }
-  constexpr std::uint32_t make(bool leaf, std::uint32_t page, std::uint32_t slot) const {
-    return (leaf ? kLeafBit : 0) | page << slot_bits_ | slot;
-  }
-  constexpr std::uint32_t max_pages() const { return std::uint32_t{1} << (31 - slot_bits_); }
+/// Returns a number that the nodes of a page do not exceed.
+constexpr std::uint32_t max_page_nodes(std::uint32_t page_bytes, const BlockShape& shape) {
+  const auto slots = static_cast<std::uint32_t>(page_bytes / kSlotBytes);
+  return (slots - frame_head_slots(page_bytes)) / shape.node_slots();
+}
 
- private:
-  constexpr std::uint32_t slot_mask() const { return (std::uint32_t{1} << slot_bits_) - 1; }
-  unsigned slot_bits_;
-};
-
-/// Returns the slots of the frame header and of the bits that mark where blocks start.
-constexpr unsigned frame_head_slots(std::uint32_t page_bytes) {
-  const std::size_t bit_bytes = page_bytes / kSlotBytes / 8;
-  return static_cast<unsigned>(1 + (bit_bytes + kSlotBytes - 1) / kSlotBytes);
+/// Returns the link to a node whose number is below max_page_nodes().
+constexpr std::uint32_t node_link(std::uint32_t page_bytes, const BlockShape& shape,
+                                  StoredLink node) {
+  return LinkFormat(page_bytes)
+      .make(false, node.page, frame_head_slots(page_bytes) + node.record * shape.node_slots());
 }
 
 /// Returns the decoded box of one of a node's children.

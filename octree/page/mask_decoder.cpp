@@ -24,6 +24,7 @@ class MaskDecoder {
   const char* decode(std::span<const std::byte> raw) {
     if (const char* fault = streams_.read(raw, info_.shape.float64)) return fault;
     if (const char* fault = fault_of_key(head(), info_)) return fault;
+    if (head().ordinal != 0) return "its ordinal is not 0";
     if (const char* fault = write_header()) return fault;
     next_family_ = head().root_count;
     for (std::size_t i = 0; i < head().record_count; ++i)
@@ -156,13 +157,14 @@ const char* MaskDecoder::link_family(MaskNode& node) {
 
 const char* MaskDecoder::link_other_page(MaskNode& node) {
   if (node.grey == 0 || next_link_ == head().page_link_count) return "its page links do not add up";
-  node.family = streams_.page_links[next_link_++];
-  const std::uint64_t page = links_.page(node.family);
-  const std::size_t end =
-      links_.slot(node.family) + static_cast<std::size_t>(std::popcount(node.grey));
-  if (page <= info_.page_number - info_.first_page || page >= info_.page_count ||
+  const StoredLink link = {streams_.linked_pages[next_link_], streams_.linked_records[next_link_]};
+  ++next_link_;
+  const std::size_t slot = first_record_slot_ + link.record;
+  const std::size_t end = slot + static_cast<std::size_t>(std::popcount(node.grey));
+  if (link.page <= info_.page_number - info_.first_page || link.page >= info_.page_count ||
       end * kMaskSlotBytes > info_.page_bytes)
     return "a link leads to a page that cannot be below it";
+  node.family = links_.make(link.page, static_cast<std::uint32_t>(slot));
   return nullptr;
 }
 
@@ -246,19 +248,22 @@ const char* MaskDecoder::decode_slab(std::size_t at, std::byte* slab) const {
 // Works on copies of members, because the compiler assumes that writing a byte may change members.
 const char* MaskDecoder::decode_list(std::byte* octants, std::byte* links, unsigned count) {
   const ByteSplit<std::uint8_t> all_octants = streams_.block_octants;
-  const ByteSplit<std::uint32_t> all_links = streams_.block_links;
+  const ByteSplit<std::uint32_t> all_pages = streams_.block_pages;
+  const ByteSplit<std::uint16_t> all_numbers = streams_.block_numbers;
   const LinkFormat format = block_links_;
   const std::uint32_t page_count = info_.tree_pages;
+  const std::uint32_t max_blocks = max_page_blocks(info_.page_bytes);
   const std::size_t first = next_block_;
   next_block_ += count;
   bool all_touch = true, all_lead = true, ascend = true;
   std::uint32_t before = 0;
   for (unsigned i = 0; i < count; ++i) {
     const std::uint8_t touched = all_octants[first + i];
-    const std::uint32_t link = all_links[first + i];
+    const StoredLink block = {all_pages[first + i], all_numbers[first + i]};
+    const std::uint32_t link = format.make_numbered(block);
     all_touch &= touched != 0;
-    all_lead &= LinkFormat::is_leaf(link);
-    all_lead &= format.page(link) < page_count;
+    all_lead &= block.page < page_count;
+    all_lead &= block.record < max_blocks;
     ascend &= link > before;
     before = link;
     std::memcpy(octants + i, &touched, sizeof touched);

@@ -108,7 +108,7 @@ struct MaskListed {
   std::uint8_t higher;       ///< mask of corners whose winding number is `least` + 1
   std::uint32_t list_slot;   ///< slot in this page of the list: for each block a u8, the octants
                              ///< that its triangles touch; then, from the next whole slot on, the
-                             ///< cell's slab, a u32, and the link of each block, a u32
+                             ///< cell's slab, a u32, and the numbered link of each block, a u32
 };
 static_assert(sizeof(MaskListed) == kMaskSlotBytes);
 
@@ -123,7 +123,7 @@ constexpr unsigned list_slots(unsigned block_count) {
   return list_octant_slots(block_count) + (block_count + 2) / 2;
 }
 
-/// A copy of a cell's list of blocks and of its slab.
+/// A copy of a cell's list of blocks, as numbered links (LinkFormat), and of its slab.
 struct MaskBlocks {
   std::uint8_t count = 0;
   alignas(kMaskSlotBytes)

@@ -29,7 +29,8 @@ const char* MaskStreams::read(std::span<const std::byte> raw, bool float64) noex
   StreamReader layout(raw.subspan(sizeof head));
   layout.take(kinds, head.record_count);
   for (auto* masks : {&grey, &leaf, &black, &inverted}) layout.take(*masks, head.node_count);
-  layout.take(page_links, head.page_link_count);
+  layout.take(linked_pages, head.page_link_count);
+  layout.take(linked_records, head.page_link_count);
   layout.take(plain_corners, head.plain_count);
   layout.take(corners, 8 * std::size_t{head.corners_count});
   layout.take(plane_counts, head.special_count);
@@ -47,7 +48,8 @@ const char* MaskStreams::read(std::span<const std::byte> raw, bool float64) noex
   layout.take(slab_lowers, head.listed_count);
   layout.take(slab_uppers, head.listed_count);
   layout.take(block_octants, head.block_link_count);
-  layout.take(block_links, head.block_link_count);
+  layout.take(block_pages, head.block_link_count);
+  layout.take(block_numbers, head.block_link_count);
   if (!layout.has_sufficed()) return kShort;
   return layout.empty() ? nullptr : "the page is longer than its counts say";
 }

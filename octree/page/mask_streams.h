@@ -14,7 +14,8 @@
 ///     leaf masks       u8 a node
 ///     black masks      u8 a node
 ///     inverted masks   u8 a node
-///     page links       u32 a node of kind kNodeWithLink
+///     linked pages     u32 a node of kind kNodeWithLink: page within the mask
+///     linked records   u16 a node of kind kNodeWithLink: number in that page
 ///     corner bits      u8 a record of kind kPlainCorners
 ///     corners          i8 x 8 a record of kind kCorners
 ///     plane counts     u8 a special cell
@@ -28,10 +29,10 @@
 ///     slab lowers      u8 a listed cell
 ///     slab uppers      u8 a listed cell
 ///     block octants    u8 a block of a list
-///     block links      u32 a block of a list
+///     block pages      u32 a block of a list
+///     block numbers    u16 a block of a list: number in that page
 ///
-/// Page links, planes, slab directions and block links are byte-stream split, as in
-/// octree/page/page_streams.h.
+/// All streams of more than a byte are byte-stream split, as in octree/page/page_streams.h.
 namespace planetree::octree {
 
 enum class MaskKind : std::uint8_t {
@@ -66,7 +67,8 @@ struct MaskStreams {
   MaskPageHead head{};
   ByteSplit<std::uint8_t> kinds;
   ByteSplit<std::uint8_t> grey, leaf, black, inverted;
-  ByteSplit<std::uint32_t> page_links;
+  ByteSplit<std::uint32_t> linked_pages;
+  ByteSplit<std::uint16_t> linked_records;
   ByteSplit<std::uint8_t> plain_corners;
   ByteSplit<std::int8_t> corners;
   ByteSplit<std::uint8_t> plane_counts;
@@ -77,7 +79,8 @@ struct MaskStreams {
   ByteSplit<std::uint8_t> higher, block_counts;
   ByteSplit<std::uint16_t> slab_directions;
   ByteSplit<std::uint8_t> slab_lowers, slab_uppers, block_octants;
-  ByteSplit<std::uint32_t> block_links;
+  ByteSplit<std::uint32_t> block_pages;
+  ByteSplit<std::uint16_t> block_numbers;
 
   /// Locates the streams in `raw`, which must outlive this object. Returns null, or a fault.
   const char* read(std::span<const std::byte> raw, bool float64) noexcept;

@@ -43,6 +43,7 @@ class PageDecoder {
   }
   void write_header();
   const char* decode_nodes();
+  const char* decode_lone_block() const;
   const char* decode_node(std::size_t index);
   template <class Bytes>
   void copy_children(const std::byte* plane, std::size_t count, Bytes& bytes) const;
@@ -101,8 +102,7 @@ void PageDecoder::write_header() {
   header.ordinal = head.ordinal;
   header.node_count = head.node_count;
   header.block_count = head.block_count;
-  header.root_node_count = head.root_node_count;
-  header.root_block_count = head.root_block_count;
+  header.root_count = head.root_count;
   header.first_node_slot = plan_.first_node_slot;
   header.first_block_slot = plan_.first_block_slot;
   header.page_link_count = head.page_link_count;
@@ -111,10 +111,9 @@ void PageDecoder::write_header() {
 
 const char* PageDecoder::decode_nodes() {
   const PageHead& head = streams_.head;
-  next_node_ = head.root_node_count;
-  next_block_ = head.root_block_count;
-  for (std::size_t i = 0; i < head.root_block_count; ++i) next_block_slot_ += block_slots(i);
-  for (std::size_t i = 0; i < head.root_node_count; ++i) {
+  if (head.node_count == 0) return decode_lone_block();
+  next_node_ = head.root_count;
+  for (std::size_t i = 0; i < head.root_count; ++i) {
     FloatBox box;
     for (int axis = 0; axis < 3; ++axis) {
       box.lower[axis] = streams_.root_boxes[6 * i + axis];
@@ -133,6 +132,12 @@ const char* PageDecoder::decode_nodes() {
       next_child_ != head.child_count || next_page_link_ != head.page_link_count)
     return "its children do not add up";
   return nullptr;
+}
+
+// A block without a node is a whole tree.
+const char* PageDecoder::decode_lone_block() const {
+  const bool alone = streams_.head.block_count == 1 && info_.page_count == 1;
+  return alone ? nullptr : "a block has no parent";
 }
 
 const char* PageDecoder::decode_node(std::size_t index) {
@@ -254,11 +259,14 @@ const char* PageDecoder::link_to_block(Node& parent, std::size_t child) {
 
 const char* PageDecoder::link_to_page(Node& parent, std::size_t child) {
   if (next_page_link_ >= streams_.head.page_link_count) return "its page links do not add up";
-  const std::uint32_t link = streams_.page_links[next_page_link_++];
-  const std::uint32_t page = links_.page(link);
-  if (page <= info_.page_number || page - info_.first_page >= info_.page_count)
+  const StoredLink link = {streams_.linked_pages[next_page_link_],
+                           streams_.linked_nodes[next_page_link_]};
+  ++next_page_link_;
+  if (link.page <= info_.page_number || link.page - info_.first_page >= info_.page_count)
     return "a link leads to a page that cannot be below it";
-  parent.link[child] = link;
+  if (link.record >= max_page_nodes(info_.page_bytes, info_.shape))
+    return "a link leads to a node that no page can have";
+  parent.link[child] = node_link(info_.page_bytes, info_.shape, link);
   return nullptr;
 }
 
@@ -266,10 +274,10 @@ const char* PageDecoder::decode_blocks() {
   BlockDecoder blocks(streams_, info_.shape);
   if (const char* fault = blocks.start(frame_ + plan_.first_block_slot * kSlotBytes)) return fault;
   std::size_t slot = plan_.used_bytes / kSlotBytes;
-  auto* starts = reinterpret_cast<std::uint64_t*>(frame_ + kSlotBytes);
+  auto* slots = reinterpret_cast<std::uint16_t*>(frame_ + kSlotBytes);
   for (std::size_t i = streams_.head.block_count; i-- > 0;) {
     slot -= block_slots(i);
-    starts[slot / 64] |= std::uint64_t{1} << slot % 64;
+    slots[i] = static_cast<std::uint16_t>(slot);
     if (const char* fault = blocks.decode_last(frame_ + slot * kSlotBytes)) return fault;
   }
   return nullptr;

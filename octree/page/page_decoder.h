@@ -9,7 +9,7 @@
 
 namespace planetree::octree {
 
-/// What decoding a page needs from its file's header and from its entry in the page table.
+/// What decoding a page needs from its file's header and from its entry in the directory.
 struct PageInfo {
   std::uint32_t page_bytes = 0;  ///< bytes of every frame
   std::uint32_t first_page = 0;  ///< first page of the page's section
@@ -20,16 +20,14 @@ struct PageInfo {
   BlockShape shape;
   std::uint32_t page_number = 0;
   std::uint64_t octcode = 0;
-  std::uint32_t ordinal = 0;
 };
 
-/// Compares the number and the key in the head of a page, of any kind, with those of its entry in
-/// the page table. Returns null, or a fault.
+/// Compares the number and the octcode in the head of a page, of any kind, with those of its entry
+/// in the directory. Returns null, or a fault.
 template <class Head>
 const char* fault_of_key(const Head& head, const PageInfo& info) noexcept {
   if (head.page_number != info.page_number) return "it is another page's bytes";
-  if (head.octcode != info.octcode || head.ordinal != info.ordinal)
-    return "its key is not the page table's";
+  if (head.octcode != info.octcode) return "its octcode is not the directory's";
   return nullptr;
 }
 

@@ -7,9 +7,8 @@ namespace {
 
 const char* check_head(const PageHead& head) {
   if (head.node_count == 0 && head.block_count == 0) return "the page holds no record";
-  if (head.root_node_count > head.node_count || head.root_block_count > head.block_count ||
-      head.root_node_count + head.root_block_count == 0)
-    return "the counts of subtree roots do not fit";
+  if (head.root_count > head.node_count || (head.root_count == 0 && head.node_count > 0))
+    return "the count of subtree roots does not fit";
   if (head.child_count > kFanOut * head.node_count || head.page_link_count > head.child_count)
     return "the counts of children do not fit";
   if (head.triangle_count > kMaxBlockTriangles * head.block_count ||
@@ -22,7 +21,7 @@ const char* check_head(const PageHead& head) {
 
 void take_nodes(StreamReader& layout, RawStreams& s, const BlockShape& shape) {
   const PageHead& head = s.head;
-  layout.take(s.root_boxes, 6 * std::size_t{head.root_node_count});
+  layout.take(s.root_boxes, 6 * std::size_t{head.root_count});
   layout.take(s.child_counts, head.node_count);
   layout.take(s.heights, head.node_count);
   layout.take(s.child_kinds, head.node_count);
@@ -36,7 +35,8 @@ void take_nodes(StreamReader& layout, RawStreams& s, const BlockShape& shape) {
     layout.take(s.child_areas, head.child_count);
     layout.take(s.child_second_moments, head.child_count);
   }
-  layout.take(s.page_links, head.page_link_count);
+  layout.take(s.linked_pages, head.page_link_count);
+  layout.take(s.linked_nodes, head.page_link_count);
 }
 
 // The length of the corner stream follows from the counts just read.

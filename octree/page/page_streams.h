@@ -22,7 +22,8 @@
 ///     child quadrupoles     5 planes of i8: xx, yy, xy, yz, zx  } (octree/page/moments.h)
 ///     child areas           u16, a ShortFloat                   }
 ///     child second moments  u16, a ShortFloat                   }
-///     page links            u32 a child of kind kPage
+///     linked pages          u32 a child of kind kPage
+///     linked nodes          u16 a child of kind kPage: number in that page
 ///     triangle counts       u8 a block, with kHeightFieldBit and kCompactBit
 ///     vertex counts         u8 a block
 ///     new counts            u8 a block: vertices that no earlier block of the page has
@@ -39,7 +40,7 @@ namespace planetree::octree {
 enum class ChildKind : std::uint8_t {
   kNode = 0,   ///< the next node of this page
   kBlock = 1,  ///< the next block of this page
-  kPage = 2,   ///< a node or block of another page, given by a link
+  kPage = 2,   ///< a node of another page, given by a link
 };
 
 /// Bit of a stored triangle count: the block is in a height field (BlockHeader::is_height_field()).
@@ -56,14 +57,13 @@ struct PageHead {
   std::uint64_t octcode;
   std::uint16_t node_count;
   std::uint16_t block_count;
-  std::uint16_t root_node_count;   ///< nodes at the front that are roots of subtrees
-  std::uint16_t root_block_count;  ///< blocks at the front that are roots of subtrees
-  std::uint16_t child_count;       ///< children of all nodes
-  std::uint16_t page_link_count;
-  std::uint16_t vertex_count;  ///< distinct vertices of the page
+  std::uint16_t root_count;       ///< nodes at the front that are roots of subtrees
+  std::uint16_t child_count;      ///< children of all nodes
+  std::uint16_t page_link_count;  ///< children in other pages
+  std::uint16_t vertex_count;     ///< distinct vertices of the page
   std::uint16_t vertex_ref_count;
   std::uint16_t triangle_count;
-  std::uint16_t reserved[3];  ///< zero
+  std::uint16_t reserved[4];  ///< zero
 };
 static_assert(sizeof(PageHead) == 40);
 
@@ -89,7 +89,8 @@ struct RawStreams {
   ByteSplit<std::int16_t> child_dipoles;     ///< 3 planes of child_count, or none
   ByteSplit<std::int8_t> child_quadrupoles;  ///< 5 planes
   ByteSplit<std::uint16_t> child_areas, child_second_moments;
-  ByteSplit<std::uint32_t> page_links;
+  ByteSplit<std::uint32_t> linked_pages;
+  ByteSplit<std::uint16_t> linked_nodes;
   ByteSplit<std::uint8_t> triangle_counts;  ///< with kHeightFieldBit, kCompactBit
   ByteSplit<std::uint8_t> vertex_counts, new_counts;
   ByteSplit<std::uint16_t> vertex_refs;

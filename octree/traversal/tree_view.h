@@ -4,9 +4,11 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "octree/geometry/error_bounds.h"
 #include "octree/geometry/triangle_distance.h"
+#include "octree/page/block_table.h"
 #include "octree/page/frame.h"
 
 /// A tree as traversals see it: the data of its header, access to its pages, and the records that
@@ -133,7 +135,10 @@ struct TraversalStats {
 class LinkResolver {
  public:
   LinkResolver(const TreeInfo& tree, const PageReader& pages)
-      : links_(tree.page_bytes), node_slots_(tree.shape.node_slots()), pages_(pages) {}
+      : links_(tree.page_bytes),
+        node_slots_(tree.shape.node_slots()),
+        max_blocks_(max_page_blocks(tree.page_bytes)),
+        pages_(pages) {}
 
   /// A number that no page has.
   static constexpr std::uint32_t kNoPage = ~std::uint32_t{0};
@@ -145,15 +150,19 @@ class LinkResolver {
   const std::byte* find(std::uint32_t link, TraversalStats& work, std::uint32_t from = kNoPage) {
     const std::uint32_t page = links_.page(link);
     const std::uint32_t slot = links_.slot(link);
-    if (!is_in_current_page(link)) {
-      ++work.page_switches;
-      page_number_ = page;
-      frame_ = pages_.page(pages_.context, page);
-    }
+    switch_to_page_of(link, work);
     // Links within a page were checked when it was decoded. Links between pages can be checked only
     // when both pages are decoded.
     if (!frame_ || (page != from && !leads_to_record(link, slot))) return nullptr;
     return frame_ + slot * kSlotBytes;
+  }
+  /// Returns the block that a numbered link leads to, as find() does. Any link is allowed.
+  const std::byte* find_numbered(std::uint32_t link, TraversalStats& work) {
+    const std::uint32_t number = links_.number(link);
+    if (!LinkFormat::is_leaf(link) || number >= max_blocks_) return nullptr;
+    switch_to_page_of(link, work);
+    const std::uint32_t slot = frame_ ? BlockTable(frame_).slot(number) : 0;
+    return slot == 0 ? nullptr : frame_ + slot * kSlotBytes;
   }
   /// Returns whether the record is in the page that was found last.
   bool is_in_current_page(std::uint32_t link) const {
@@ -211,15 +220,40 @@ class LinkResolver {
       __builtin_prefetch(last += leaf * kSlotBytes);
   }
 
+  /// Prefetches the blocks that numbered links lead to, if their pages are resident. The links are
+  /// those of a mask, whose pages exist. No answer depends on it.
+  void prefetch_numbered(std::span<const std::uint32_t> links) const {
+    if (!pages_.frames.cells || !pages_.peek) return;
+    for (const std::uint32_t link : links)
+      __builtin_prefetch(pages_.frames.frame_of(links_.page(link)) + kSlotBytes +
+                         links_.number(link) * sizeof(std::uint16_t));
+    std::uint32_t page = kNoPage;
+    const std::byte* frame = nullptr;
+    for (const std::uint32_t link : links) {
+      if (links_.page(link) != page) {
+        page = links_.page(link);
+        frame = pages_.peek(pages_.context, page);
+      }
+      if (!frame) continue;
+      const std::byte* block = frame + BlockTable(frame).slot(links_.number(link)) * kSlotBytes;
+#pragma GCC unroll 4
+      for (std::size_t i = 0; i < kBlockLines; ++i) __builtin_prefetch(block + i * kSlotBytes);
+    }
+  }
+
  private:
   static constexpr std::size_t kBlockLines = 4;  // covers all of most blocks
 
+  void switch_to_page_of(std::uint32_t link, TraversalStats& work) {
+    if (is_in_current_page(link)) return;
+    ++work.page_switches;
+    page_number_ = links_.page(link);
+    frame_ = pages_.page(pages_.context, page_number_);
+  }
   bool leads_to_record(std::uint32_t link, std::uint32_t slot) const {
     const auto& header = *reinterpret_cast<const FrameHeader*>(frame_);
-    if (LinkFormat::is_leaf(link)) {
-      const auto* starts = reinterpret_cast<const std::uint64_t*>(frame_ + kSlotBytes);
-      return (starts[slot / 64] >> slot % 64 & 1) != 0;
-    }
+    // Only the root of a tree may be a block. Links that a page had to its own blocks are right.
+    if (LinkFormat::is_leaf(link)) return slot >= header.first_block_slot;
     if (slot < header.first_node_slot) return false;
     const std::uint32_t offset = slot - header.first_node_slot;
     // Constant divisors: a division by node_slots_ would take as long as the node's bounds.
@@ -230,6 +264,7 @@ class LinkResolver {
 
   const LinkFormat links_;
   const unsigned node_slots_;
+  const std::uint32_t max_blocks_;
   const PageReader& pages_;
   std::uint32_t page_number_ = kNoPage;
   const std::byte* frame_ = nullptr;

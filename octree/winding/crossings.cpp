@@ -133,11 +133,11 @@ Crossings count_in_blocks_on_target(const TreeInfo& tree, const PerturbedSegment
   if (!limit.take(blocks.size())) return {.complete = false};
   LinkResolver records(tree, pages);
   const LinkFormat links(tree.page_bytes);
-  for (const std::uint32_t link : blocks) records.prefetch(link);
+  records.prefetch_numbered(blocks);
   BlockCrossings crossings(tree, segment, limit, work);
   bool complete = true;
   for (const std::uint32_t link : blocks) {
-    const std::byte* record = LinkFormat::is_leaf(link) ? records.find(link, work) : nullptr;
+    const std::byte* record = records.find_numbered(link, work);
     complete = complete && record;
     if (!record) continue;
     ++work.blocks;

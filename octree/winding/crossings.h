@@ -34,8 +34,8 @@ Crossings count_crossings(const TreeInfo& tree, const PerturbedSegment& segment,
 /// Counts the crossings with the triangles of some blocks only, of the surface or of its caps;
 /// otherwise as above.
 ///
-/// blocks  links to the blocks. They need not be valid: a link that leads to no block counts as
-///         one to a missing page.
+/// blocks  numbered links (LinkFormat) to the blocks. They need not be valid: a link that leads to
+///         no block counts as one to a missing page.
 Crossings count_crossings(const TreeInfo& tree, const PerturbedSegment& segment,
                           std::span<const std::uint32_t> blocks, std::uint64_t max_work,
                           const PageReader& pages, TraversalStats& work) noexcept;

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Callable, Optional, Sequence
+from typing import Any, Callable, Mapping, Optional, Sequence
 
 from . import _planetree
 from ._arrays import bytes_of
@@ -32,6 +32,7 @@ def build(
     values: Any = None,
     resume: bool = False,
     float64: bool = False,
+    metadata: Optional[Mapping[str, str]] = None,
     strict: bool = False,
     replace: bool = False,
     progress: Optional[Callable[[str, int, int], Any]] = None,
@@ -57,6 +58,7 @@ def build(
     values     (m,): a number for each face
     resume     keep completed work, and resume that of an earlier build
     float64    read floats of ascii PLY files as doubles
+    metadata   texts that the file says of the model, such as {"unit": "mm", "crs": "EPSG:25832"}
     strict     a bad record is an error; otherwise it is skipped and counted
     replace    whether an existing file may be replaced
     progress   called as progress(phase, done, total) about 20 times a second
@@ -73,6 +75,7 @@ def build(
         "value_property": str(value),
         "resume": bool(resume),
         "float64": bool(float64),
+        "metadata": {str(key): str(text) for key, text in (metadata or {}).items()},
         "strict": bool(strict),
         "replace": bool(replace),
     }

@@ -72,6 +72,11 @@ class Model(Queries):
         return told
 
     @property
+    def metadata(self) -> Dict[str, str]:
+        """What the file says of the model: its unit, coordinate reference system, and so on."""
+        return self._handle.metadata()
+
+    @property
     def stats(self) -> Dict[str, int]:
         """State and counters: pages read, evicted, in memory, and so on."""
         return self._handle.stats()

@@ -51,7 +51,7 @@ Result<MeshTriangle> find_mesh_triangle(const ModelGeometry& model, const octree
   MeshTriangle triangle = attributes_of(view, at, attributes.shape);
   octree::LinkResolver records(model.tree, pages);
   octree::TraversalStats work;
-  const std::byte* const record = records.find(link, work);
+  const std::byte* const record = records.find_numbered(link, work);
   const std::uint32_t tree_page = octree::LinkFormat(model.tree.page_bytes).page(link);
   if (!record && !records.has_page()) return unreadable(tree_page);
   if (record) {

@@ -14,7 +14,7 @@ octree::TreeInfo tree_info(const storage::FileHeader& header, const Scale& scale
   const storage::ModelRecord& model = header.model;
   octree::TreeInfo tree;
   tree.page_bytes = header.page_bytes;
-  tree.root_link = model.root_link;
+  tree.root_link = octree::root_link_of(header.page_bytes, 0, model.node_count);
   tree.shape = block_shape(model);
   tree.record_count = model.node_count + model.block_count;
   tree.box_lower = point_in_frame(scale, model.box_lower);
@@ -31,7 +31,8 @@ octree::TreeInfo tree_info(const storage::FileHeader& header, const Scale& scale
 octree::TreeInfo cap_info(const storage::FileHeader& header, const octree::TreeInfo& surface) {
   octree::TreeInfo caps = surface;
   caps.first_page = header.first_cap_page();
-  caps.root_link = header.model.cap_root_link;
+  caps.root_link =
+      octree::root_link_of(header.page_bytes, caps.first_page, header.model.cap_node_count);
   caps.shape = cap_shape(header.model);
   caps.record_count = header.model.cap_node_count + header.model.cap_block_count;
   return caps;

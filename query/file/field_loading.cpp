@@ -52,11 +52,11 @@ Result<LoadedField> load_field(const storage::PageFile& file, std::uint32_t n,
   PointSieve sieve(shape, n, points);
   for (std::uint32_t page = header.first_field_page(); page < header.first_attribute_page();
        ++page) {
-    const storage::PageEntry& entry = file.entries()[page];
-    const std::span<std::byte> bytes(raw.get(), entry.raw_bytes);
+    const auto entry = file.entry(page);
+    const std::span<std::byte> bytes(raw.get(), entry ? entry->raw_bytes : 0);
     const std::span<octree::FieldPoint> of_page(decoded.get(), field_points(header, page));
-    if (!file.read_page(page, {stored.get(), header.max_stored_bytes}, bytes) ||
-        !octree::decode_field_page(bytes, page_info(header, entry, page), of_page)) {
+    if (!entry || !file.read_page(page, {stored.get(), header.max_stored_bytes}, bytes) ||
+        !octree::decode_field_page(bytes, page_info(header, *entry, page), of_page)) {
       field.is_damaged = true;
       return field;
     }

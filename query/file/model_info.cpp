@@ -3,8 +3,16 @@
 #include <cmath>
 
 #include "query/file/open_layers.h"
+#include "storage/file/directory_shape.h"
 
 namespace planetree::query {
+namespace {
+
+std::uint64_t stored_bytes(const storage::FileHeader& header, storage::PageKind kind) {
+  return header.stored_bytes[static_cast<unsigned>(kind)];
+}
+
+}  // namespace
 
 ModelInfo describe(const storage::PageFile& file) {
   const storage::FileHeader& header = file.header();
@@ -41,14 +49,15 @@ ModelInfo describe(const storage::PageFile& file) {
   info.page_bytes = header.page_bytes;
   info.file_bytes = header.file_bytes;
   info.section_bytes.headers = 2 * sizeof header;
-  info.section_bytes.page_table = file.entries().size_bytes();
-  for (std::uint32_t page = 0; page < header.page_count; ++page)
-    (page < header.first_cap_page()         ? info.section_bytes.distance_pages
-     : page < header.first_field_page()     ? info.section_bytes.cap_pages
-     : page < header.first_attribute_page() ? info.section_bytes.field_pages
-     : page < header.first_mask_page()      ? info.section_bytes.attribute_pages
-                                            : info.section_bytes.mask_pages) +=
-        file.entries()[page].stored_bytes;
+  info.section_bytes.extensions = header.file_bytes - storage::kHeaderBytes -
+                                  storage::pages_end(header) +
+                                  header.extension_count * sizeof(storage::ExtensionRecord);
+  info.section_bytes.directory = storage::DirectoryShape(header.page_count).bytes();
+  info.section_bytes.distance_pages = stored_bytes(header, storage::PageKind::kDistance);
+  info.section_bytes.cap_pages = stored_bytes(header, storage::PageKind::kCaps);
+  info.section_bytes.field_pages = stored_bytes(header, storage::PageKind::kField);
+  info.section_bytes.attribute_pages = stored_bytes(header, storage::PageKind::kAttributes);
+  info.section_bytes.mask_pages = stored_bytes(header, storage::PageKind::kMask);
   info.content_id[0] = header.content_id[0];
   info.content_id[1] = header.content_id[1];
   return info;

@@ -81,7 +81,6 @@ octree::PageInfo page_info(const storage::FileHeader& header, const storage::Pag
   info.shape = section == kCaps ? cap_shape(header.model) : block_shape(header.model);
   info.page_number = page;
   info.octcode = entry.octcode;
-  info.ordinal = entry.ordinal;
   return info;
 }
 

@@ -35,7 +35,7 @@ octree::PageInfo page_info(const storage::FileHeader& header, const storage::Pag
 
 /// Decodes a page of any kind into its frame.
 ///
-/// entry   entry of the page in the page table
+/// entry   entry of the page in the directory
 /// page    page number, below header.page_count
 /// raw     raw bytes of the page; any bytes are allowed
 /// frame   header.page_bytes bytes, aligned to 64 bytes; undefined after an error

@@ -59,15 +59,15 @@ QueryArena::Needs SceneModel::needs(const Choices& choices) const noexcept {
 ModelMemory SceneModel::memory(const Choices& choices) const noexcept {
   const QueryArena::Needs needs = this->needs(choices);
   ModelMemory memory;
-  memory.page_table = file.table_memory_bytes();
+  memory.directory = file.directory_memory_bytes();
   memory.side_grid = needs.side_grid_bytes;
   memory.field = needs.field_bytes;
   memory.probes = choices.readers * (needs.probe_bytes + sizeof(FetchRequests) +
                                      sizeof(std::unique_ptr<ProbeState>)) +
                   thread_bytes(choices);
-  memory.total = file.table_memory_bytes() + QueryArena::bytes(needs) + sizeof(SceneModel) +
+  memory.total = file.directory_memory_bytes() + QueryArena::bytes(needs) + sizeof(SceneModel) +
                  choices.readers * sizeof(std::unique_ptr<ProbeState>) + thread_bytes(choices);
-  memory.other = memory.total - memory.page_table - memory.side_grid - memory.field - memory.probes;
+  memory.other = memory.total - memory.directory - memory.side_grid - memory.field - memory.probes;
   return memory;
 }
 

@@ -29,6 +29,15 @@ std::uint64_t PageFiller::bytes(const Limits& limits) noexcept {
          max_read_waits(limits) * storage::ReadWait::kMappedBytes;
 }
 
+Result<std::optional<storage::PageEntry>> PageFiller::entry_of(const storage::PageFile& file,
+                                                               std::uint32_t page,
+                                                               bool may_block) noexcept {
+  if (!may_block) return file.kept_entry(page);
+  const auto read = file.entry(page);
+  if (!read) return read.error();
+  return std::optional(*read);
+}
+
 Result<void> PageFiller::claim(const Limits& limits) noexcept {
   limits_ = limits;
   max_wait_ = std::min(limits.wait_limit, kMaxReadWait);
@@ -44,7 +53,10 @@ Result<void> PageFiller::claim(const Limits& limits) noexcept {
 Result<cache::FillResult> PageFiller::fill(const storage::PageFile& file, std::uint32_t page,
                                            const cache::FillRequest& request) noexcept {
   const storage::FileHeader& header = file.header();
-  const storage::PageEntry& entry = file.entries()[page];
+  const auto found = entry_of(file, page, request.may_block);
+  if (!found) return found.error();
+  if (!*found) return cache::FillResult::kWouldBlock;
+  const storage::PageEntry& entry = **found;
   std::byte* const scratch = scratch_.get() + request.fetcher * scratch_bytes(limits_);
   const std::span<std::byte> raw(scratch, entry.raw_bytes);
   // The frame is written last. Until then it may hold the stored bytes.

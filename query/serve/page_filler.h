@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "cache/page_cache.h"
 #include "planetree/error.h"
@@ -52,6 +53,10 @@ class PageFiller {
   };
 
   static std::uint64_t max_read_waits(const Limits& limits) noexcept;
+  // Where a page is; nothing if that would have to be read and `may_block` is false.
+  static Result<std::optional<storage::PageEntry>> entry_of(const storage::PageFile& file,
+                                                            std::uint32_t page,
+                                                            bool may_block) noexcept;
   static std::uint64_t scratch_bytes(const Limits& limits) noexcept;
   storage::ReadLimits read_limits(const cache::FillRequest& request) noexcept;
   storage::ReadWait* read_wait_for(std::uint32_t fetcher) noexcept;

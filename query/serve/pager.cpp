@@ -26,7 +26,7 @@ cache::CacheLimits Pager::cache_limits(const storage::PageFile& file,
   cache_limits.policy = limits.policy;
   cache_limits.max_readers = limits.readers();
   cache_limits.own_readers = limits.thread_probes;
-  cache_limits.reserved_bytes = file.table_memory_bytes() +
+  cache_limits.reserved_bytes = file.directory_memory_bytes() +
                                 PageFiller::bytes(filler_limits(header, limits)) + sizeof(Pager) +
                                 QueryArena::bytes(limits.arena) +
                                 limits.probe_bytes * limits.max_probes + limits.thread_bytes;

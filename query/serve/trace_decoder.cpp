@@ -107,7 +107,8 @@ void TraceDecoder::pop_motion(PageTrace::Ring& ring, PageAccess& access) noexcep
 }
 
 void TraceDecoder::describe_page(TraceWord word, PageAccess& access) noexcept {
-  const storage::PageEntry& entry = file_.entries()[word.page()];
+  storage::PageEntry entry{};
+  if (const auto found = file_.entry(word.page())) entry = *found;
   access.page = word.page();
   access.octcode = entry.octcode;
   access.level = static_cast<std::uint8_t>(octree::cell_of_octcode(entry.octcode).level);

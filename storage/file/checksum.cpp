@@ -1,6 +1,6 @@
 #include "storage/file/checksum.h"
 
-// Makes the layout of XXH3_state_t public: Hasher128 contains one.
+// Makes the layout of XXH3_state_t public: Hasher contains one.
 #define XXH_STATIC_LINKING_ONLY
 #include <xxhash.h>
 
@@ -17,7 +17,7 @@ Hash128 hash128(std::span<const std::byte> bytes) noexcept {
   return {hash.low64, hash.high64};
 }
 
-Hasher128::Hasher128() noexcept {
+Hasher::Hasher() noexcept {
   static_assert(sizeof(XXH3_state_t) <= kStateBytes);
   static_assert(alignof(XXH3_state_t) <= kStateAlignment);
   // The reset reads the seed field to decide whether a custom secret must be rebuilt, so the state
@@ -25,32 +25,19 @@ Hasher128::Hasher128() noexcept {
   XXH3_128bits_reset(new (state_) XXH3_state_t{});
 }
 
-void Hasher128::add(std::span<const std::byte> bytes) noexcept {
+void Hasher::add(std::span<const std::byte> bytes) noexcept {
   XXH3_128bits_update(std::launder(reinterpret_cast<XXH3_state_t*>(state_)), bytes.data(),
                       bytes.size());
 }
 
-Hash128 Hasher128::value() const noexcept {
+Hash128 Hasher::value() const noexcept {
   const XXH128_hash_t hash =
       XXH3_128bits_digest(std::launder(reinterpret_cast<const XXH3_state_t*>(state_)));
   return {hash.low64, hash.high64};
 }
 
-std::uint64_t page_hash(std::uint32_t page, std::span<const std::byte> stored) noexcept {
-  return hash64(stored, page);
-}
-
-Hash128 content_id(std::span<const PageEntry> entries, std::uint64_t mask) noexcept {
-  Hasher128 hasher;
-  for (const PageEntry& entry : entries) {
-    const std::uint64_t hash = entry.check ^ mask;
-    hasher.add(std::as_bytes(std::span(&hash, 1)));
-  }
-  return hasher.value();
-}
-
-std::uint64_t table_hash(std::span<const PageEntry> entries) noexcept {
-  return hash64(std::as_bytes(entries));
+std::uint64_t Hasher::value64() const noexcept {
+  return XXH3_64bits_digest(std::launder(reinterpret_cast<const XXH3_state_t*>(state_)));
 }
 
 std::uint64_t header_hash(const FileHeader& header) noexcept {

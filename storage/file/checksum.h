@@ -13,11 +13,11 @@
 ///
 /// Hashes of a .ptree file, shared by writer and reader.
 ///
-///   page hash    of a page's stored bytes, seeded with its number: swapped pages fail
-///   content id   of all page hashes: identifies the content of the file
-///   page check   page hash exclusive-or the content id's low word: pages of other files fail
-///   table hash   of the page table
-///   header hash  of the header, which holds the content id and the table hash
+///   page check       of a page's stored bytes, in the directory
+///   block check      of a block of the directory, in the block above it
+///   content id       of the directory's root, so of all pages: identifies the content of the file
+///   extensions hash  of the extension records, which have the hashes of the extensions
+///   header hash      of the header, which has the content id and the extensions hash
 namespace planetree::storage {
 
 struct Hash128 {
@@ -34,14 +34,15 @@ struct Hash128 {
 /// XXH3-128 of `bytes`, which may be empty, with seed 0.
 [[nodiscard]] Hash128 hash128(std::span<const std::byte> bytes) noexcept;
 
-/// XXH3-128 of bytes that are added in parts. The value does not depend on how they are split.
-/// Contains its state, so that hashing a page table allocates nothing.
-class Hasher128 {
+/// XXH3 of bytes that are added in parts. The values do not depend on how they are split. Contains
+/// its state, so that hashing allocates nothing.
+class Hasher {
  public:
-  Hasher128() noexcept;
+  Hasher() noexcept;
 
   void add(std::span<const std::byte> bytes) noexcept;
-  [[nodiscard]] Hash128 value() const noexcept;
+  [[nodiscard]] Hash128 value() const noexcept;          ///< XXH3-128
+  [[nodiscard]] std::uint64_t value64() const noexcept;  ///< XXH3-64
 
  private:
   static constexpr std::size_t kStateBytes = 576;
@@ -49,16 +50,6 @@ class Hasher128 {
 
   alignas(kStateAlignment) std::byte state_[kStateBytes];
 };
-
-/// page    page number.
-/// stored  stored bytes of the page.
-[[nodiscard]] std::uint64_t page_hash(std::uint32_t page,
-                                      std::span<const std::byte> stored) noexcept;
-
-/// Content id of pages whose `check` fields hold the page hashes exclusive-or `mask`.
-[[nodiscard]] Hash128 content_id(std::span<const PageEntry> entries, std::uint64_t mask) noexcept;
-
-[[nodiscard]] std::uint64_t table_hash(std::span<const PageEntry> entries) noexcept;
 
 [[nodiscard]] std::uint64_t header_hash(const FileHeader& header) noexcept;
 

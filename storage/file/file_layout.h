@@ -3,27 +3,32 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
+#include <numeric>
 #include <type_traits>
 
-/// Layout of a .ptree file outside its pages: see "Header", "Model record" and "Page table" in
-/// format-spec/v1/spec.md. All integers and floats are little-endian. The structs have exactly the
-/// bytes of the file.
+/// Layout of a .ptree file outside its pages: see "File" in format-spec/v1/spec.md. All integers
+/// and floats are little-endian. The structs have exactly the bytes of the file.
 ///
-///   offset                 part            length
-///   0                      header          kHeaderBytes
-///   kHeaderBytes           page table      page_count * sizeof(PageEntry)
-///   ...                    pages           stored bytes from page 0 on, without gaps: distance
-///                                          pages, cap pages, field pages, attribute pages, mask
-///                                          pages
-///   file_bytes - 760       header's copy   kHeaderBytes
+///   offset                 part                length
+///   0                      header              kHeaderBytes
+///   kHeaderBytes           extension records   extension_count * sizeof(ExtensionRecord)
+///   ...                    directory           DirectoryShape::bytes()
+///   ...                    pages               stored bytes from page 0 on, without gaps: distance
+///                                              pages, cap pages, field pages, attribute pages,
+///                                              mask pages
+///   ...                    extensions          their bytes, without gaps
+///   file_bytes - 1024      header's copy       kHeaderBytes
 namespace planetree::storage {
 
 static_assert(std::endian::native == std::endian::little,
               "planetree reads and writes its structs in place: little-endian machines only");
 
 inline constexpr std::uint8_t kMagic[8] = {0x89, 'P', 'T', 'R', 'E', 'E', 0x0d, 0x0a};
-inline constexpr std::uint16_t kFormatVersion = 14;
-inline constexpr std::size_t kHeaderBytes = 760;
+/// Major version times 256, plus minor version. A reader reads every minor version of its major
+/// version.
+inline constexpr std::uint16_t kFormatVersion = 0x100;
+inline constexpr std::size_t kHeaderBytes = 1024;
 inline constexpr std::uint64_t kKnownIncompatibleFeatures = 0;
 inline constexpr std::uint32_t kMinPageBytes = 4096;
 inline constexpr std::uint32_t kMaxPageBytes = 262144;
@@ -80,11 +85,10 @@ struct ModelRecord {
   double sample[3];                     ///< model frame; a vertex of sample_triangle
   std::uint64_t sample_triangle;        ///< minimum index of a triangle in the file
   std::int32_t scale_exponent;          ///< model frame = input * 2^scale_exponent
-  std::uint32_t root_link;              ///< link to the tree's root, a node or a block
   VertexKind vertex_kind;               ///< type of stored coordinates
   std::uint8_t triangle_id_bytes;       ///< bytes of a stored triangle index: 4 or 8
   std::uint8_t height;                  ///< maximum number of nodes on a path from root to block
-  std::uint8_t reserved[5];             ///< zero
+  std::uint8_t reserved[9];             ///< zero
   std::uint64_t unbalanced_edge_count;  ///< in the whole input; 0: the surface is watertight
   UnbalancedEdge unbalanced_edge[3];    ///< first ones by triangle, then corner; unused ones zero
   std::uint64_t mask_cell_count;        ///< grey cells of the mask
@@ -108,9 +112,8 @@ struct ModelRecord {
   std::uint64_t cap_block_count;  ///< blocks of the tree of caps
   double cap_area;                ///< sum of the caps' areas; model frame
   std::uint32_t cap_page_count;   ///< cap pages, between distance pages and mask pages
-  std::uint32_t cap_root_link;    ///< link to the root of the tree of caps
   std::uint8_t cap_height;        ///< of the tree of caps, as `height`
-  std::uint8_t cap_reserved[7];   ///< zero
+  std::uint8_t cap_reserved[11];  ///< zero
   /// How open the surface of the whole input is: the length of the sum of the area vectors, divided
   /// by the sum of the areas; 0 to 1.
   double openness;
@@ -150,6 +153,10 @@ struct ModelRecord {
 };
 static_assert(sizeof(ModelRecord) == 640);
 
+/// Kinds of pages, in the order in which a file has them.
+enum class PageKind : std::uint8_t { kDistance, kCaps, kField, kAttributes, kMask };
+inline constexpr unsigned kPageKinds = 5;
+
 struct FileHeader {
   std::uint8_t magic[8];                ///< kMagic
   std::uint16_t version;                ///< kFormatVersion
@@ -158,15 +165,28 @@ struct FileHeader {
   std::uint64_t incompatible_features;  ///< readers refuse a file with an unknown bit
   std::uint64_t compatible_features;    ///< readers ignore unknown bits
   std::uint64_t file_bytes;             ///< exact length of the file
-  std::uint64_t content_id[2];          ///< XXH3-128 of the page hashes, low word first
-  std::uint64_t table_hash;             ///< XXH3-64 of the page table's bytes
-  std::uint32_t page_count;             ///< at least 1
-  std::uint32_t max_raw_bytes;          ///< largest PageEntry::raw_bytes
-  std::uint64_t max_stored_bytes;       ///< largest PageEntry::stored_bytes
+  std::uint64_t content_id[2];          ///< XXH3-128 of the directory's root block, low word first
+  std::uint64_t extensions_hash;        ///< XXH3-64 of the extension records
+  std::uint64_t stored_bytes[kPageKinds];  ///< of all pages of a kind
+  std::uint32_t page_count;                ///< at least 1
+  std::uint32_t extension_count;           ///< at most kMaxExtensions
+  std::uint32_t max_raw_bytes;             ///< largest PageEntry::raw_bytes
+  std::uint32_t max_stored_bytes;          ///< largest PageEntry::stored_bytes
   ModelRecord model;
-  std::uint8_t reserved[32];  ///< zero
-  std::uint64_t header_hash;  ///< XXH3-64 of all bytes before this field
+  std::uint8_t reserved[256];  ///< zero
+  std::uint64_t header_hash;   ///< XXH3-64 of all bytes before this field
 
+  /// Stored bytes of all pages.
+  [[nodiscard]] std::uint64_t stored_page_bytes() const noexcept {
+    return std::accumulate(std::begin(stored_bytes), std::end(stored_bytes), std::uint64_t{0});
+  }
+  /// Kind of a page below page_count.
+  [[nodiscard]] PageKind kind_of(std::uint32_t page) const noexcept {
+    if (page < first_cap_page()) return PageKind::kDistance;
+    if (page < first_field_page()) return PageKind::kCaps;
+    if (page < first_attribute_page()) return PageKind::kField;
+    return page < first_mask_page() ? PageKind::kAttributes : PageKind::kMask;
+  }
   /// Number of the first mask page; page_count if there is none. All pages from it on are mask
   /// pages.
   [[nodiscard]] std::uint32_t first_mask_page() const noexcept {
@@ -190,24 +210,57 @@ struct FileHeader {
   }
 };
 static_assert(sizeof(FileHeader) == kHeaderBytes);
-static_assert(offsetof(FileHeader, model) == 80);
+static_assert(offsetof(FileHeader, model) == 120);
 static_assert(std::is_trivially_copyable_v<FileHeader>);
 
 enum class Codec : std::uint32_t { kStored = 0, kLz4 = 1 };
 
-/// Entry of one page in the page table. The page's key is the minimum octcode of its subtrees and
-/// an ordinal among the pages with that octcode. Distance pages are numbered first, then cap pages,
-/// field pages, attribute pages and mask pages, each kind in the order of keys.
-struct PageEntry {
-  std::uint64_t offset;        ///< offset of the stored bytes in the file
-  std::uint64_t check;         ///< XXH3-64 of the stored bytes seeded with the page number,
-                               ///< exclusive-or content_id[0]
-  std::uint64_t octcode;       ///< key, first part
-  std::uint32_t ordinal;       ///< key, second part
-  Codec codec;                 ///< codec of the stored bytes
-  std::uint32_t stored_bytes;  ///< at least 1
-  std::uint32_t raw_bytes;     ///< at least 1; stored_bytes >= raw_bytes / 255
+/// Entry of a page in the directory. The page's octcode is the minimum of those of its subtrees.
+/// Distance pages are numbered first, then cap pages, field pages, attribute pages and mask pages,
+/// each kind in the order of octcodes.
+struct DirectoryPage {
+  std::uint64_t check;  ///< XXH3-64 of the stored bytes
+  std::uint64_t octcode;
+  std::uint32_t stored_bytes;  ///< at least 1; equal to raw_bytes: the raw bytes themselves
+  std::uint32_t raw_bytes;     ///< at least 1, at most 255 stored_bytes
 };
-static_assert(sizeof(PageEntry) == 40);
+static_assert(sizeof(DirectoryPage) == 24);
+
+/// Entry of a block of the directory in the block above it.
+struct DirectoryBlock {
+  std::uint64_t check;    ///< XXH3-64 of the block's bytes
+  std::uint64_t octcode;  ///< of the first page below
+  std::uint64_t offset;   ///< of the first page below, from page 0 on
+};
+static_assert(sizeof(DirectoryBlock) == 24);
+
+inline constexpr std::size_t kDirectoryEntryBytes = 24;
+
+/// Where a page is and what it must be.
+struct PageEntry {
+  std::uint64_t offset;  ///< of the stored bytes in the file
+  std::uint64_t check;   ///< XXH3-64 of the stored bytes
+  std::uint64_t octcode;
+  std::uint32_t stored_bytes;
+  std::uint32_t raw_bytes;
+
+  [[nodiscard]] Codec codec() const noexcept {
+    return stored_bytes == raw_bytes ? Codec::kStored : Codec::kLz4;
+  }
+};
+
+inline constexpr std::uint32_t kMaxExtensions = 64;
+
+/// Bytes with a name that a file has besides the model. Records are in the order of names, and no
+/// name is there twice.
+struct ExtensionRecord {
+  char name[24];          ///< a to z, 0 to 9, '.', '-' and '_', at least one; then zeros
+  std::uint64_t offset;   ///< in the file
+  std::uint64_t bytes;    ///< any number
+  std::uint64_t check;    ///< XXH3-64 of the bytes
+  std::uint8_t required;  ///< 1: a reader that does not know the name refuses the file
+  std::uint8_t reserved[15];
+};
+static_assert(sizeof(ExtensionRecord) == 64);
 
 }  // namespace planetree::storage

@@ -7,24 +7,15 @@
 #include <cstring>
 #include <iterator>
 
-#include "storage/file/checksum.h"
+#include "storage/file/directory_shape.h"
 #include "storage/file/header_faults.h"
 #include "storage/file/page_codec.h"
 
 namespace planetree::storage {
 namespace {
 
-Error bad_entry(std::uint32_t page, const char* cause) noexcept {
-  return damaged(page, table_end(page), cause);
-}
-
 Result<void> check_supported(const FileHeader& header) noexcept {
-  if (header.version != kFormatVersion) {
-    return make_error(ErrorCode::kUnsupported, Error::kNowhere, offsetof(FileHeader, version),
-                      "the file has format version %d and this program reads version %d; use a "
-                      "planetree of that version or build the file again",
-                      header.version, kFormatVersion);
-  }
+  if (!is_known_version(header.version)) return unknown_version(header.version);
   const std::uint64_t unknown = header.incompatible_features & ~kKnownIncompatibleFeatures;
   if (unknown != 0) {
     return make_error(ErrorCode::kUnsupported, Error::kNowhere,
@@ -47,10 +38,16 @@ Result<void> check_lengths(const FileHeader& header, std::uint64_t actual_bytes)
   if (header.page_count == 0) {
     return bad_header(offsetof(FileHeader, page_count), "the header states that there is no page");
   }
-  // A page has at least one byte, so the file's length bounds the page table before memory is
-  // allocated for it.
-  if (table_end(header.page_count) + header.page_count + kHeaderBytes > header.file_bytes) {
-    return bad_header(offsetof(FileHeader, page_count), "the page table does not fit in the file");
+  // The file's length bounds the directory before memory is allocated for it.
+  if (header.extension_count > kMaxExtensions ||
+      pages_start(header) + kHeaderBytes > header.file_bytes) {
+    return bad_header(offsetof(FileHeader, page_count), "the directory does not fit in the file");
+  }
+  std::uint64_t left = header.file_bytes - kHeaderBytes - pages_start(header);
+  for (const std::uint64_t bytes : header.stored_bytes) {
+    if (bytes > left)
+      return bad_header(offsetof(FileHeader, stored_bytes), "the pages do not fit in the file");
+    left -= bytes;
   }
   if (header.max_raw_bytes == 0 || header.max_raw_bytes > kMaxRawBytes) {
     return bad_header(offsetof(FileHeader, max_raw_bytes), "the largest raw page is out of range");
@@ -58,59 +55,6 @@ Result<void> check_lengths(const FileHeader& header, std::uint64_t actual_bytes)
   if (header.max_stored_bytes == 0 || header.max_stored_bytes > header.max_raw_bytes) {
     return bad_header(offsetof(FileHeader, max_stored_bytes),
                       "the largest stored page is out of range");
-  }
-  return {};
-}
-
-Result<void> check_entry(const FileHeader& header, std::uint32_t page,
-                         const PageEntry& entry) noexcept {
-  if (entry.codec != Codec::kStored && entry.codec != Codec::kLz4) {
-    return bad_entry(page, "the page's codec is unknown");
-  }
-  if (entry.raw_bytes > header.max_raw_bytes) {
-    return bad_entry(page, "the page's raw length is above the file's largest");
-  }
-  if (entry.stored_bytes == 0 || entry.stored_bytes > header.max_stored_bytes) {
-    return bad_entry(page, "the page's stored length is zero or above the file's largest");
-  }
-  if (!lengths_are_plausible(entry.codec, entry.stored_bytes, entry.raw_bytes)) {
-    return bad_entry(page, "the page's stored length cannot give its raw length");
-  }
-  return {};
-}
-
-bool key_less(const PageEntry& a, const PageEntry& b) noexcept {
-  return a.octcode != b.octcode ? a.octcode < b.octcode : a.ordinal < b.ordinal;
-}
-
-// Checks that the pages fill the file. The sums cannot overflow: they have page_count terms of 32
-// bits each.
-Result<void> check_tiling(const FileHeader& header, std::span<const PageEntry> entries) noexcept {
-  std::uint64_t offset = table_end(header.page_count);
-  std::uint32_t max_raw_bytes = 0;
-  std::uint32_t max_stored_bytes = 0;
-  for (std::uint32_t page = 0; page < header.page_count; ++page) {
-    const PageEntry& entry = entries[page];
-    if (entry.offset != offset) {
-      return bad_entry(page, "the page does not start where the one before ends");
-    }
-    if (const Result<void> checked = check_entry(header, page, entry); !checked) return checked;
-    if (page > 0 && page != header.first_cap_page() && page != header.first_field_page() &&
-        page != header.first_attribute_page() && page != header.first_mask_page() &&
-        !key_less(entries[page - 1], entry)) {
-      return bad_entry(page, "the page's key does not follow the one before");
-    }
-    offset += entry.stored_bytes;
-    max_raw_bytes = std::max(max_raw_bytes, entry.raw_bytes);
-    max_stored_bytes = std::max(max_stored_bytes, entry.stored_bytes);
-  }
-  if (offset != header.file_bytes - kHeaderBytes) {
-    return bad_entry(header.page_count - 1, "the pages do not end where the header's copy starts");
-  }
-  // Readers allocate buffers of these sizes, so they must not exceed what the pages need.
-  if (max_raw_bytes != header.max_raw_bytes || max_stored_bytes != header.max_stored_bytes) {
-    return bad_header(offsetof(FileHeader, max_raw_bytes),
-                      "no page is as large as the header states");
   }
   return {};
 }
@@ -168,18 +112,6 @@ Result<void> check_header(const FileHeader& header, std::uint64_t actual_bytes) 
                      "there are not as many attribute pages as the triangles take");
   }
   return {};
-}
-
-Result<void> check_table(const FileHeader& header, std::span<const PageEntry> entries) noexcept {
-  if (entries.size() != header.page_count || table_hash(entries) != header.table_hash) {
-    return damaged(Error::kNowhere, kHeaderBytes, "the page table's checksum is wrong");
-  }
-  const Hash128 id = content_id(entries, header.content_id[0]);
-  if (id != Hash128{header.content_id[0], header.content_id[1]}) {
-    return damaged(Error::kNowhere, offsetof(FileHeader, content_id),
-                   "the content id does not follow from the page table");
-  }
-  return check_tiling(header, entries);
 }
 
 }  // namespace planetree::storage

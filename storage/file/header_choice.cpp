@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "storage/file/checksum.h"
+#include "storage/file/header_faults.h"
 
 namespace planetree::storage {
 namespace {
@@ -75,14 +76,9 @@ Error explain(std::span<const std::byte> leading, std::uint64_t actual_bytes) no
   }
   std::uint16_t version;
   std::memcpy(&version, leading.data() + offsetof(FileHeader, version), sizeof version);
-  if (version != kFormatVersion) {
-    // Another version may have another header layout, so the version is reported without a check
-    // of the hash.
-    return make_error(ErrorCode::kUnsupported, Error::kNowhere, offsetof(FileHeader, version),
-                      "the file has format version %d and this program reads version %d; use a "
-                      "planetree of that version or build the file again",
-                      version, kFormatVersion);
-  }
+  // Another version may have another header layout, so the version is reported without a check of
+  // the hash.
+  if (!is_known_version(version)) return unknown_version(version);
   return make_error(ErrorCode::kDamaged, Error::kNowhere, 0,
                     "neither of the file's two headers has the right checksum; restore it from a "
                     "copy or build it again");

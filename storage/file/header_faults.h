@@ -25,6 +25,23 @@ inline Error bad_model(std::size_t offset, const char* cause) noexcept {
   return bad_header(offsetof(FileHeader, model) + offset, cause);
 }
 
+/// Whether this program reads files of a version: those of its own major version.
+inline bool is_known_version(std::uint16_t version) noexcept {
+  return version / 256 == kFormatVersion / 256;
+}
+
+/// Versions before 1.0 were counted from 1 on.
+inline Error unknown_version(std::uint16_t version) noexcept {
+  const int major = version / 256, minor = version % 256;
+  return make_error(ErrorCode::kUnsupported, Error::kNowhere, offsetof(FileHeader, version),
+                    major == 0
+                        ? "the file has format version %d, from before 1.0, and this program "
+                          "reads version 1; build the file again"
+                        : "the file has format version %d.%d and this program reads version "
+                          "1; update planetree or build the file again",
+                    major == 0 ? minor : major, minor);
+}
+
 inline bool all_zero(std::span<const std::uint8_t> bytes) noexcept {
   return std::all_of(bytes.begin(), bytes.end(), [](std::uint8_t byte) { return byte == 0; });
 }

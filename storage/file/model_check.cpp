@@ -162,7 +162,7 @@ Result<void> check_caps(const ModelRecord& model) noexcept {
                      "there are more caps than indices of 32 bits can count");
   }
   if (!(model.cap_area >= 0 && model.cap_area <= kMaxCapArea) ||
-      (!has_caps && (model.cap_area > 0 || model.cap_root_link > 0))) {
+      (!has_caps && model.cap_area > 0)) {
     return bad_model(offsetof(ModelRecord, cap_area), "the area of the caps is out of range");
   }
   if (model.cap_height > kMaxHeight || (!has_caps && model.cap_height > 0)) {

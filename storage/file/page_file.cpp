@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "storage/file/checksum.h"
+#include "storage/file/extension.h"
 #include "storage/file/header_check.h"
 #include "storage/file/header_choice.h"
 #include "storage/file/page_codec.h"
@@ -38,6 +39,20 @@ Error located(Error error, std::uint32_t page, std::uint64_t offset) noexcept {
   return error;
 }
 
+// Verifies the stored bytes of a page and decodes them.
+Result<void> unpack(std::uint32_t page, const PageEntry& entry, std::span<const std::byte> stored,
+                    std::span<std::byte> raw_out) noexcept {
+  if (hash64(stored) != entry.check) {
+    return make_error(
+        ErrorCode::kDamaged, page, entry.offset,
+        "the page's checksum is wrong; restore the file from a copy or build it again");
+  }
+  if (const Result<void> decoded = decompress_page(entry.codec(), stored, raw_out); !decoded) {
+    return located(decoded.error(), page, entry.offset);
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<PageFile> PageFile::open(const std::filesystem::path& path, FileCalls& calls) {
@@ -50,7 +65,8 @@ Result<PageFile> PageFile::open(const std::filesystem::path& path, FileCalls& ca
   if (const Result<void> loaded = opened.load_header(*actual_bytes); !loaded) {
     return loaded.error();
   }
-  if (const Result<void> loaded = opened.load_table(); !loaded) return loaded.error();
+  if (const Result<void> loaded = opened.load_extensions(); !loaded) return loaded.error();
+  if (const Result<void> loaded = opened.load_directory(); !loaded) return loaded.error();
   return opened;
 }
 
@@ -73,78 +89,96 @@ Result<void> PageFile::load_header(std::uint64_t actual_bytes) noexcept {
   return check_header(header_, actual_bytes);
 }
 
-Result<void> PageFile::load_table() noexcept {
-  entries_.reset(new (std::nothrow) PageEntry[header_.page_count]);
-  const std::size_t table_bytes = header_.page_count * sizeof(PageEntry);
-  if (entries_ == nullptr) {
-    return make_error(ErrorCode::kNoMemory, Error::kNowhere, kHeaderBytes,
-                      "no memory for the page table of %zu bytes; free some memory", table_bytes);
+Result<void> PageFile::load_extensions() {
+  extensions_.resize(header_.extension_count);
+  const std::span<std::byte> bytes = std::as_writable_bytes(std::span(extensions_));
+  if (!bytes.empty()) {
+    if (const Result<void> read = copy_mapped(file_, kHeaderBytes, bytes); !read) return read;
   }
-  const std::span<PageEntry> table(entries_.get(), header_.page_count);
-  if (const Result<void> read = copy_mapped(file_, kHeaderBytes, std::as_writable_bytes(table));
-      !read) {
-    return read;
-  }
-  return check_table(header_, table);
+  return check_extensions(header_, extensions_);
 }
 
-Result<void> PageFile::check_buffers(std::uint32_t page, std::span<std::byte> stored_scratch,
-                                     std::span<std::byte> raw_out) const noexcept {
-  if (page >= page_count()) {
-    return make_error(ErrorCode::kBadArgument, page, Error::kNowhere,
-                      "the file has no such page; its last is %" PRIu32, page_count() - 1);
-  }
-  const PageEntry& entry = entries_[page];
-  if (stored_scratch.size() < header_.max_stored_bytes || raw_out.size() != entry.raw_bytes) {
-    return make_error(ErrorCode::kBadArgument, page, entry.offset,
-                      "the buffers given have %zu and %zu bytes; they need at least %" PRIu64
-                      " and exactly %" PRIu32,
-                      stored_scratch.size(), raw_out.size(), header_.max_stored_bytes,
-                      entry.raw_bytes);
-  }
+Result<void> PageFile::load_directory() noexcept {
+  Result<Directory> opened = Directory::open(file_, header_);
+  if (!opened) return opened.error();
+  directory_.emplace(*std::move(opened));
   return {};
+}
+
+Result<std::vector<std::byte>> PageFile::read_extension(const ExtensionRecord& record) const {
+  std::vector<std::byte> bytes;
+  try {
+    bytes.resize(record.bytes);
+  } catch (const std::bad_alloc&) {
+    return make_error(ErrorCode::kNoMemory, Error::kNowhere, record.offset,
+                      "no memory for an extension of %" PRIu64 " bytes; free some memory",
+                      record.bytes);
+  }
+  if (bytes.empty()) return bytes;
+  if (const Result<void> read = file_.read_at(record.offset, bytes); !read) return read.error();
+  if (hash64(bytes) != record.check) {
+    return make_error(ErrorCode::kDamaged, Error::kNowhere, record.offset,
+                      "the hash of an extension is wrong; restore the file from a copy or build it "
+                      "again");
+  }
+  return bytes;
+}
+
+Result<void> PageFile::check_page(std::uint32_t page) const noexcept {
+  if (page < page_count()) return {};
+  return make_error(ErrorCode::kBadArgument, page, Error::kNowhere,
+                    "the file has no such page; its last is %" PRIu32, page_count() - 1);
+}
+
+Result<PageEntry> PageFile::entry(std::uint32_t page) const noexcept {
+  if (const Result<void> checked = check_page(page); !checked) return checked.error();
+  return directory_->entry(file_, header_, page);
+}
+
+std::optional<PageEntry> PageFile::kept_entry(std::uint32_t page) const noexcept {
+  if (page >= page_count()) return {};
+  return directory_->kept_entry(header_, page);
+}
+
+Result<void> PageFile::check_buffers(std::uint32_t page, const PageEntry& entry,
+                                     std::span<std::byte> stored_scratch,
+                                     std::span<std::byte> raw_out) const noexcept {
+  if (stored_scratch.size() >= header_.max_stored_bytes && raw_out.size() == entry.raw_bytes)
+    return {};
+  return make_error(ErrorCode::kBadArgument, page, entry.offset,
+                    "the buffers given have %zu and %zu bytes; they need at least %" PRIu32
+                    " and exactly %" PRIu32,
+                    stored_scratch.size(), raw_out.size(), header_.max_stored_bytes,
+                    entry.raw_bytes);
 }
 
 Result<void> PageFile::read_page(std::uint32_t page, std::span<std::byte> stored_scratch,
                                  std::span<std::byte> raw_out) const noexcept {
-  if (const Result<void> checked = check_buffers(page, stored_scratch, raw_out); !checked) {
+  const Result<PageEntry> entry = this->entry(page);
+  if (!entry) return entry.error();
+  if (const auto checked = check_buffers(page, *entry, stored_scratch, raw_out); !checked)
     return checked;
+  const std::span<std::byte> stored = stored_scratch.first(entry->stored_bytes);
+  if (const Result<void> read = file_.read_at(entry->offset, stored); !read) {
+    return located(read.error(), page, entry->offset);
   }
-  const PageEntry& entry = entries_[page];
-  const std::span<std::byte> stored = stored_scratch.first(entry.stored_bytes);
-  if (const Result<void> read = file_.read_at(entry.offset, stored); !read) {
-    return located(read.error(), page, entry.offset);
-  }
-  return unpack(page, stored, raw_out);
+  return unpack(page, *entry, stored, raw_out);
 }
 
 Result<bool> PageFile::try_read_page(std::uint32_t page, std::span<std::byte> stored_scratch,
                                      std::span<std::byte> raw_out,
                                      const ReadLimits& terms) const noexcept {
-  if (const Result<void> checked = check_buffers(page, stored_scratch, raw_out); !checked) {
+  if (const Result<void> checked = check_page(page); !checked) return checked.error();
+  const std::optional<PageEntry> entry = kept_entry(page);
+  if (!entry) return false;
+  if (const auto checked = check_buffers(page, *entry, stored_scratch, raw_out); !checked)
     return checked.error();
-  }
-  const PageEntry& entry = entries_[page];
-  const std::span<std::byte> stored = stored_scratch.first(entry.stored_bytes);
-  if (!file_.try_read(entry.offset, stored, terms)) return false;
-  if (const Result<void> unpacked = unpack(page, stored, raw_out); !unpacked) {
+  const std::span<std::byte> stored = stored_scratch.first(entry->stored_bytes);
+  if (!file_.try_read(entry->offset, stored, terms)) return false;
+  if (const Result<void> unpacked = unpack(page, *entry, stored, raw_out); !unpacked) {
     return unpacked.error();
   }
   return true;
-}
-
-Result<void> PageFile::unpack(std::uint32_t page, std::span<const std::byte> stored,
-                              std::span<std::byte> raw_out) const noexcept {
-  const PageEntry& entry = entries_[page];
-  if ((page_hash(page, stored) ^ header_.content_id[0]) != entry.check) {
-    return make_error(
-        ErrorCode::kDamaged, page, entry.offset,
-        "the page's checksum is wrong; restore the file from a copy or build it again");
-  }
-  if (const Result<void> decoded = decompress_page(entry.codec, stored, raw_out); !decoded) {
-    return located(decoded.error(), page, entry.offset);
-  }
-  return {};
 }
 
 }  // namespace planetree::storage

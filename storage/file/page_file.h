@@ -3,10 +3,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <memory>
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "planetree/error.h"
+#include "storage/file/directory.h"
 #include "storage/file/file_layout.h"
 #include "storage/system/file_calls.h"
 #include "storage/system/file_handle.h"
@@ -15,9 +17,9 @@ namespace planetree::storage {
 
 /// An open .ptree file: returns the verified raw bytes of its pages.
 ///
-/// The header and the page table are copied and checked at open. Each page is checked whenever it
-/// is read. If another file is renamed to the same path, the object goes on reading the file that
-/// it opened.
+/// The header and the records of extensions are copied and checked at open, and the directory
+/// unless it is greater than what Directory keeps. Each page is checked whenever it is read. If
+/// another file is renamed to the same path, the object goes on reading the file that it opened.
 class PageFile {
  public:
   PageFile(PageFile&&) noexcept = default;
@@ -34,12 +36,24 @@ class PageFile {
 
   const FileHeader& header() const noexcept { return header_; }
   std::uint32_t page_count() const noexcept { return header_.page_count; }
-  std::span<const PageEntry> entries() const noexcept {
-    return {entries_.get(), header_.page_count};
-  }
+  std::span<const ExtensionRecord> extensions() const noexcept { return extensions_; }
 
-  /// Bytes of memory that the page table takes.
-  std::uint64_t table_memory_bytes() const noexcept { return entries().size_bytes(); }
+  /// Returns where a page is, and its lengths. May read a block of the directory.
+  ///
+  /// errors   kBadArgument: there is no such page; kReadFailed; kTruncated; kDamaged.
+  /// threads  any number at once; no allocation; see Directory.
+  Result<PageEntry> entry(std::uint32_t page) const noexcept;
+  /// Returns the same if that reads nothing from the file.
+  std::optional<PageEntry> kept_entry(std::uint32_t page) const noexcept;
+
+  /// Bytes of memory that the directory takes.
+  std::uint64_t directory_memory_bytes() const noexcept { return directory_->memory_bytes(); }
+
+  /// Reads and verifies the bytes of an extension.
+  ///
+  /// record  one of extensions().
+  /// errors  kNoMemory; kReadFailed; kTruncated; kDamaged.
+  Result<std::vector<std::byte>> read_extension(const ExtensionRecord& record) const;
 
   /// Whether one of the file's two headers is damaged. The other one is used; the file should be
   /// copied or built again before that one is damaged too.
@@ -49,16 +63,16 @@ class PageFile {
   ///
   /// page            below page_count().
   /// stored_scratch  at least header().max_stored_bytes bytes; overwritten.
-  /// raw_out         exactly entries()[page].raw_bytes bytes; unspecified on failure.
+  /// raw_out         exactly entry(page)->raw_bytes bytes; unspecified on failure.
   /// errors          with page and offset: kBadArgument; kReadFailed; kTruncated: the file became
   ///                 shorter after it was opened; kDamaged.
-  /// threads         any number at once; no lock, no allocation.
+  /// threads         any number at once; no allocation; see Directory.
   Result<void> read_page(std::uint32_t page, std::span<std::byte> stored_scratch,
                          std::span<std::byte> raw_out) const noexcept;
 
-  /// Does the same within the time limits of `terms`. Returns false if the read would block or
-  /// fails. In both cases read_page() reads the page or returns the error.
-  /// errors  kBadArgument, kDamaged.
+  /// Does the same within the time limits of `terms`. Returns false if the read would block, also
+  /// for a block of the directory, or fails. In both cases read_page() reads the page or returns
+  /// the error. errors  kBadArgument, kDamaged.
   Result<bool> try_read_page(std::uint32_t page, std::span<std::byte> stored_scratch,
                              std::span<std::byte> raw_out,
                              const ReadLimits& terms = {}) const noexcept;
@@ -66,15 +80,17 @@ class PageFile {
  private:
   PageFile() noexcept = default;
   Result<void> load_header(std::uint64_t actual_bytes) noexcept;
-  Result<void> load_table() noexcept;
-  Result<void> check_buffers(std::uint32_t page, std::span<std::byte> stored_scratch,
+  Result<void> load_extensions();
+  Result<void> load_directory() noexcept;
+  Result<void> check_page(std::uint32_t page) const noexcept;
+  Result<void> check_buffers(std::uint32_t page, const PageEntry& entry,
+                             std::span<std::byte> stored_scratch,
                              std::span<std::byte> raw_out) const noexcept;
-  Result<void> unpack(std::uint32_t page, std::span<const std::byte> stored,
-                      std::span<std::byte> raw_out) const noexcept;
 
   FileHandle file_;
   FileHeader header_{};
-  std::unique_ptr<PageEntry[]> entries_;
+  std::vector<ExtensionRecord> extensions_;
+  std::optional<Directory> directory_;
   bool header_copy_damaged_ = false;
 };
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "planetree/error.h"
+#include "storage/file/extension.h"
 #include "storage/file/file_layout.h"
 #include "storage/file/page_codec.h"
 #include "storage/system/file_calls.h"
@@ -26,24 +27,25 @@ class PageWriter {
   /// Starts a file.
   ///
   /// path        destination of the file.
-  /// page_count  number of pages, at least 1; determines the length of the page table.
+  /// page_count  number of pages, at least 1; determines the length of the directory.
+  /// extensions  at most kMaxExtensions, with different names; in any order.
   /// replace     whether an existing file may be replaced.
   /// calls       the system; must outlive the writer.
-  /// errors      kBadArgument; kAlreadyExists; those of file_error(), such as kPermission,
-  /// kNoSpace. memory      1 MiB and 40 bytes per page, until the writer is destroyed.
+  /// errors      kBadArgument; kAlreadyExists; those of file_error(), such as kPermission and
+  ///             kNoSpace.
+  /// memory      1 MiB, 24 bytes per page and the extensions, until the writer is destroyed.
   static Result<PageWriter> create(const std::filesystem::path& path, std::uint32_t page_count,
-                                   bool replace, FileCalls& calls = FileCalls::real());
+                                   std::vector<Extension> extensions, bool replace,
+                                   FileCalls& calls = FileCalls::real());
 
   /// Adds the next page.
   ///
-  /// octcode, ordinal  key of the page, above that of the previous page of its kind.
-  /// raw_bytes         length of the page before compress_page().
-  /// stored            result of compress_page().
-  /// errors            kBadArgument: out of order, too many pages, or lengths that no page can
-  /// have;
-  ///                   those of file_error(), such as kNoSpace and kWriteFailed.
-  Result<void> append(std::uint64_t octcode, std::uint32_t ordinal, std::uint32_t raw_bytes,
-                      const StoredPage& stored);
+  /// octcode    of the page, not below that of the previous page of its kind.
+  /// raw_bytes  length of the page before compress_page().
+  /// stored     result of compress_page().
+  /// errors     kBadArgument: out of order, too many pages, or lengths that no page can have; those
+  ///            of file_error(), such as kNoSpace and kWriteFailed.
+  Result<void> append(std::uint64_t octcode, std::uint32_t raw_bytes, const StoredPage& stored);
 
   /// Marks the pages appended from now on as cap pages, field pages, attribute pages or mask pages,
   /// with an order of keys of their own. Call those that are called in this order.
@@ -65,17 +67,19 @@ class PageWriter {
 
  private:
   explicit PageWriter(NewFile file) noexcept : file_(std::move(file)) {}
-  Result<void> check_next(std::uint64_t octcode, std::uint32_t ordinal, std::uint32_t raw_bytes,
+  Result<void> check_next(std::uint64_t octcode, std::uint32_t raw_bytes,
                           const StoredPage& stored) const noexcept;
   Result<void> add_bytes(std::span<const std::byte> bytes);
   Result<void> flush();
-  FileHeader make_header(const ModelRecord& model, std::uint32_t page_bytes);
-  Result<void> write_out(const FileHeader& header);
+  Result<void> write_extensions();
+  FileHeader make_header(const ModelRecord& model, std::uint32_t page_bytes) const;
+  Result<void> write_out(FileHeader& header);
   Error fail(const Error& error) noexcept;
 
   NewFile file_;
-  // PageEntry::check is the page hash alone until the content id is known.
-  std::vector<PageEntry> entries_;
+  std::vector<DirectoryPage> entries_;
+  std::vector<Extension> extensions_;
+  std::vector<ExtensionRecord> extension_records_;
   std::uint32_t page_count_ = 0;
   std::optional<std::uint32_t> first_cap_page_, first_field_page_, first_attribute_page_,
       first_mask_page_;

@@ -263,7 +263,7 @@ TEST(TriangleFilter, NeverRejectsTheNearest) {
             expect_list_passes(block, wide, query, centre);
         }
       };
-      if (octree::LinkFormat::is_leaf(pages.model().root_link)) check(pages.model().root_link);
+      if (octree::LinkFormat::is_leaf(pages.root_link())) check(pages.root_link());
       pages.each_node([&](const Node& node) {
         for (unsigned child = 0; child < node.child_count; ++child)
           if (octree::LinkFormat::is_leaf(node.link[child])) check(node.link[child]);

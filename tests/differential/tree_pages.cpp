@@ -32,9 +32,10 @@ TreePages::TreePages(const std::filesystem::path& path) {
   shape_.float64 = model_.vertex_kind == storage::VertexKind::kFloat64;
   shape_.wide_ids = model_.triangle_id_bytes == 8;
   links_ = octree::LinkFormat(header.page_bytes);
+  root_link_ = octree::root_link_of(header.page_bytes, 0, model_.node_count);
   std::vector<std::byte> stored(header.max_stored_bytes), raw(header.max_raw_bytes);
   for (std::uint32_t page = 0; page < header.first_cap_page(); ++page) {
-    const storage::PageEntry& entry = file.entries()[page];
+    const storage::PageEntry entry = need(file.entry(page));
     const std::span<std::byte> bytes(raw.data(), entry.raw_bytes);
     need(file.read_page(page, stored, bytes));
     octree::PageInfo info;
@@ -43,7 +44,6 @@ TreePages::TreePages(const std::filesystem::path& path) {
     info.shape = shape_;
     info.page_number = page;
     info.octcode = entry.octcode;
-    info.ordinal = entry.ordinal;
     auto* frame = new (std::align_val_t{64}) std::byte[header.page_bytes];
     frames_.emplace_back(frame);
     need(octree::decode_page(bytes, info, {frame, header.page_bytes}));
@@ -61,7 +61,7 @@ const octree::Node& TreePages::node(std::uint32_t link) const {
 octree::BlockView TreePages::block(std::uint32_t link) const { return {record(link), shape_}; }
 
 void TreePages::each_node(const std::function<void(const octree::Node&)>& visit) const {
-  std::vector<std::uint32_t> links{model_.root_link};
+  std::vector<std::uint32_t> links{root_link()};
   while (!links.empty()) {
     const std::uint32_t link = links.back();
     links.pop_back();

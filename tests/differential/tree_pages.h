@@ -23,6 +23,7 @@ class TreePages {
     return {model_.centre[0], model_.centre[1], model_.centre[2]};
   }
   [[nodiscard]] std::size_t count() const { return frames_.size(); }
+  [[nodiscard]] std::uint32_t root_link() const { return root_link_; }
 
   [[nodiscard]] const octree::Node& node(std::uint32_t link) const;
   [[nodiscard]] octree::BlockView block(std::uint32_t link) const;
@@ -41,6 +42,7 @@ class TreePages {
   storage::ModelRecord model_{};
   octree::BlockShape shape_;
   octree::LinkFormat links_{storage::kMinPageBytes};
+  std::uint32_t root_link_ = 0;
   std::vector<std::unique_ptr<std::byte[], Free>> frames_;
 };
 

@@ -25,7 +25,8 @@ void read_all(const std::byte* frame, AttributeShape shape) {
   std::uint64_t sum = 0;
   for (std::uint32_t i = 0; i < view.count(); ++i) {
     const std::uint32_t link = view.link(i);
-    if (link != kNoLink && (!LinkFormat::is_leaf(link) || links.page(link) >= kTreePages))
+    if (link != kNoLink && (!LinkFormat::is_leaf(link) || links.page(link) >= kTreePages ||
+                            links.number(link) >= max_page_blocks(kPageBytes)))
       std::abort();
     if (shape.has_colors()) sum += view.colors(i)[2].alpha;
     if (shape.has_uvs()) sum += view.uvs(i)[2].v < 0 ? 1 : 0;
@@ -53,7 +54,6 @@ void run(std::span<const std::byte> bytes) {
   info.first_page = kPage - 2;
   info.page_count = 4;
   info.tree_pages = kTreePages;
-  info.ordinal = 2;
   std::vector<std::byte> frame(kPageBytes);
   if (decode_attribute_page(raw, info, shape, count, frame)) read_all(frame.data(), shape);
 }

@@ -8,7 +8,6 @@
 namespace planetree::storage {
 namespace {
 
-using octree::LinkFormat;
 using octree::StreamPage;
 
 // Fields of one width that follow each other in the model record.
@@ -19,7 +18,6 @@ constexpr Fields kModelFields[] = {{offsetof(ModelRecord, triangle_count), 8, 6}
                                    {offsetof(ModelRecord, box_lower), 8, 12},
                                    {offsetof(ModelRecord, sample_triangle), 8, 1},
                                    {offsetof(ModelRecord, scale_exponent), 4, 1},
-                                   {offsetof(ModelRecord, root_link), 4, 1},
                                    {offsetof(ModelRecord, vertex_kind), 1, 3},
                                    {offsetof(ModelRecord, unbalanced_edge_count), 8, 1},
                                    {offsetof(ModelRecord, unbalanced_edge), 8, 7},
@@ -104,12 +102,8 @@ void FileMutator::change_pages(ForgedFile& file) {
 
 // The key is that of the page's head as well, unless the head is left behind.
 void FileMutator::change_key(ForgedPage& page) {
-  if (choices_.one_in(2))
-    change_value(std::as_writable_bytes(std::span(&page.octcode, 1)), choices_);
-  else
-    change_value(std::as_writable_bytes(std::span(&page.ordinal, 1)), choices_);
+  change_value(std::as_writable_bytes(std::span(&page.octcode, 1)), choices_);
   if (page.raw.size() < StreamPage::kHeadBytes || choices_.one_in(8)) return;
-  std::memcpy(page.raw.data() + 4, &page.ordinal, sizeof page.ordinal);
   std::memcpy(page.raw.data() + 8, &page.octcode, sizeof page.octcode);
 }
 
@@ -141,11 +135,12 @@ void FileMutator::change_streams(const ForgedFile& file, StreamPage& page) {
       return page.erase_record(count, choices_.below(page.count(count) + std::size_t{1}));
     case 3:
     case 4: {
-      octree::PageStream& links =
-          page.streams()[choices_.one_in(2) ? page.page_links() : page.block_links()];
-      if (links.width == 4 && links.size() > 0)
-        change_link(file, links.element(choices_.below(links.size())));
-      return;
+      const std::size_t at = choices_.one_in(2) ? page.linked_pages() : page.block_pages();
+      octree::PageStream& pages = page.streams()[at];
+      octree::PageStream& records = page.streams()[at + 1];
+      if (pages.width != 4 || pages.size() == 0 || records.size() != pages.size()) return;
+      const std::size_t link = choices_.below(pages.size());
+      return change_link(file, pages.element(link), records.element(link));
     }
     case 5:
       if (stream.size() > 0) {
@@ -158,18 +153,14 @@ void FileMutator::change_streams(const ForgedFile& file, StreamPage& page) {
   }
 }
 
-// A link to where records of a page begin, or near it.
-void FileMutator::change_link(const ForgedFile& file, std::span<std::byte> link) {
-  if (choices_.one_in(4)) return change_value(link, choices_);
-  const std::size_t page = choices_.below(file.pages.size() + 1);
-  const std::uint32_t page_bytes = file.header.page_bytes;
-  if (page_bytes < kMinPageBytes || page_bytes > kMaxPageBytes) return;
-  const std::uint32_t slots = choices_.one_in(2) ? file.shape().node_slots() : 4;
-  const auto slot =
-      static_cast<std::uint32_t>(octree::frame_head_slots(page_bytes) + choices_.below(12) * slots);
-  const std::uint32_t made =
-      LinkFormat(page_bytes).make(choices_.one_in(2), static_cast<std::uint32_t>(page), slot);
-  std::memcpy(link.data(), &made, sizeof made);
+// A link to one of the first records of a page.
+void FileMutator::change_link(const ForgedFile& file, std::span<std::byte> page,
+                              std::span<std::byte> record) {
+  if (choices_.one_in(4)) return change_value(choices_.one_in(2) ? page : record, choices_);
+  const auto to = static_cast<std::uint32_t>(choices_.below(file.pages.size() + 1));
+  const auto number = static_cast<std::uint16_t>(choices_.below(12));
+  std::memcpy(page.data(), &to, page.size());
+  std::memcpy(record.data(), &number, record.size());
 }
 
 // Heads state the number of their page and its key, which ascend.
@@ -177,14 +168,9 @@ void FileMutator::number_pages(ForgedFile& file) {
   for (std::size_t page = 0; page < file.pages.size(); ++page) {
     ForgedPage& it = file.pages[page];
     const auto number = static_cast<std::uint32_t>(page);
-    if (page > 0 && std::pair(it.octcode, it.ordinal) <=
-                        std::pair(file.pages[page - 1].octcode, file.pages[page - 1].ordinal)) {
-      it.octcode = file.pages[page - 1].octcode;
-      it.ordinal = file.pages[page - 1].ordinal + 1;
-    }
+    if (page > 0) it.octcode = std::max(it.octcode, file.pages[page - 1].octcode);
     if (it.raw.size() < StreamPage::kHeadBytes) continue;
     std::memcpy(it.raw.data(), &number, sizeof number);
-    std::memcpy(it.raw.data() + 4, &it.ordinal, sizeof it.ordinal);
     std::memcpy(it.raw.data() + 8, &it.octcode, sizeof it.octcode);
   }
 }
@@ -200,11 +186,10 @@ Bytes FileMutator::seal(const ForgedFile& file) {
     });
   } else {
     const auto page = static_cast<std::uint32_t>(choices_.below(file.pages.size()));
-    image.change_entry(page, [&](PageEntry& entry) {
-      constexpr Fields kEntry[] = {{offsetof(PageEntry, offset), 8, 1},
-                                   {offsetof(PageEntry, codec), 4, 1},
-                                   {offsetof(PageEntry, stored_bytes), 4, 1},
-                                   {offsetof(PageEntry, raw_bytes), 4, 1}};
+    image.change_entry(page, [&](DirectoryPage& entry) {
+      constexpr Fields kEntry[] = {{offsetof(DirectoryPage, octcode), 8, 1},
+                                   {offsetof(DirectoryPage, stored_bytes), 4, 1},
+                                   {offsetof(DirectoryPage, raw_bytes), 4, 1}};
       const Fields& field = choices_.of(kEntry);
       change_value(std::as_writable_bytes(std::span(&entry, 1)).subspan(field.offset, field.width),
                    choices_);

@@ -27,7 +27,7 @@ class FileMutator {
   void change_key(ForgedPage& page);
   void change_content(ForgedFile& file, std::size_t page);
   void change_streams(const ForgedFile& file, octree::StreamPage& page);
-  void change_link(const ForgedFile& file, std::span<std::byte> link);
+  void change_link(const ForgedFile& file, std::span<std::byte> page, std::span<std::byte> record);
   void number_pages(ForgedFile& file);
   Bytes seal(const ForgedFile& file);
 

@@ -8,12 +8,15 @@ namespace planetree::storage {
 namespace {
 
 std::optional<ForgedPage> read_page(FileImage& image, std::uint32_t page) {
-  const PageEntry entry = image.entry(page);
-  const std::size_t file_bytes = image.bytes().size();
-  if (entry.offset > file_bytes || entry.stored_bytes > file_bytes - entry.offset) return {};
-  if (!lengths_are_plausible(entry.codec, entry.stored_bytes, entry.raw_bytes)) return {};
-  ForgedPage read{entry.octcode, entry.ordinal, Bytes(entry.raw_bytes)};
-  if (!decompress_page(entry.codec, image.stored(page), read.raw)) return {};
+  const DirectoryPage entry = image.entry(page);
+  const std::size_t file_bytes = image.bytes().size(), offset = image.offset_of_page(page);
+  if (offset > file_bytes || entry.stored_bytes > file_bytes - offset) return {};
+  const Codec codec = entry.stored_bytes == entry.raw_bytes ? Codec::kStored : Codec::kLz4;
+  if (entry.raw_bytes > kMaxRawBytes ||
+      !lengths_are_plausible(codec, entry.stored_bytes, entry.raw_bytes))
+    return {};
+  ForgedPage read{entry.octcode, Bytes(entry.raw_bytes)};
+  if (!decompress_page(codec, image.stored(page), read.raw)) return {};
   return read;
 }
 
@@ -24,7 +27,7 @@ std::optional<ForgedFile> ForgedFile::of(std::span<const std::byte> bytes) {
   FileImage image(Bytes(bytes.begin(), bytes.end()));
   ForgedFile file{image.header(), {}};
   const std::uint32_t page_count = file.header.page_count;
-  if (page_count == 0 || page_count > kMaxPages || !image.table_fits()) return {};
+  if (page_count == 0 || page_count > kMaxPages || !image.directory_fits()) return {};
   for (std::uint32_t page = 0; page < file.header.page_count; ++page) {
     std::optional<ForgedPage> read = read_page(image, page);
     if (!read) return {};
@@ -35,25 +38,26 @@ std::optional<ForgedFile> ForgedFile::of(std::span<const std::byte> bytes) {
 
 Bytes ForgedFile::bytes() const {
   const auto page_count = static_cast<std::uint32_t>(pages.size());
-  Bytes result(table_end(page_count));
-  std::vector<PageEntry> entries;
   FileHeader stated = header;
   stated.page_count = page_count;
+  stated.extension_count = 0;
+  Bytes result(kHeaderBytes + DirectoryShape(page_count).bytes());
+  std::vector<DirectoryPage> entries;
+  std::ranges::fill(stated.stored_bytes, 0);
   stated.max_raw_bytes = 0;
   stated.max_stored_bytes = 0;
   for (const ForgedPage& page : pages) {
     const StoredPage stored = compress_page(page.raw);
-    PageEntry entry{};
-    entry.offset = result.size();
+    DirectoryPage entry{};
     entry.octcode = page.octcode;
-    entry.ordinal = page.ordinal;
-    entry.codec = stored.codec;
     entry.stored_bytes = static_cast<std::uint32_t>(stored.bytes.size());
     entry.raw_bytes = static_cast<std::uint32_t>(page.raw.size());
+    const PageKind kind = stated.kind_of(static_cast<std::uint32_t>(entries.size()));
+    stated.stored_bytes[static_cast<unsigned>(kind)] += entry.stored_bytes;
     entries.push_back(entry);
     result.insert(result.end(), stored.bytes.begin(), stored.bytes.end());
     stated.max_raw_bytes = std::max(stated.max_raw_bytes, entry.raw_bytes);
-    stated.max_stored_bytes = std::max<std::uint64_t>(stated.max_stored_bytes, entry.stored_bytes);
+    stated.max_stored_bytes = std::max(stated.max_stored_bytes, entry.stored_bytes);
   }
   result.resize(result.size() + kHeaderBytes);
   stated.file_bytes = result.size();

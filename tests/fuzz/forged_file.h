@@ -15,7 +15,6 @@ namespace planetree::storage {
 /// A page of a forged file: its key and its raw bytes.
 struct ForgedPage {
   std::uint64_t octcode = 0;
-  std::uint32_t ordinal = 0;
   Bytes raw;
 };
 

@@ -14,7 +14,7 @@ namespace planetree::storage {
 namespace {
 
 constexpr std::uint8_t kSealPages = 1;
-constexpr std::uint8_t kSealTable = 2;
+constexpr std::uint8_t kSealDirectory = 2;
 constexpr std::uint8_t kSealHeader = 4;
 constexpr std::uint8_t kSealLength = 8;
 constexpr std::uint8_t kSealMagic = 16;
@@ -29,8 +29,11 @@ void seal(FileImage& image, std::uint8_t how) {
     header.header_bytes = kHeaderBytes;
     header.incompatible_features = 0;
   });
-  if (image.table_fits() && (how & kSealPages) != 0) image.seal_pages();
-  if (image.table_fits() && (how & kSealTable) != 0) image.seal_table();
+  if (image.directory_fits() && (how & kSealPages) != 0) image.seal_pages();
+  if (image.directory_fits() && (how & kSealDirectory) != 0) {
+    image.seal_extensions();
+    image.seal_directory();
+  }
   if ((how & kSealHeader) != 0) image.seal_header();
 }
 
@@ -38,7 +41,9 @@ void read_all_pages(const PageFile& file) {
   Bytes scratch(file.header().max_stored_bytes);
   for (std::uint32_t page = 0; page < file.page_count(); ++page) {
     // A buffer of exactly the page's size, so that a sanitizer reports any access beyond.
-    Bytes raw(file.entries()[page].raw_bytes);
+    const Result<PageEntry> entry = file.entry(page);
+    if (!entry) continue;
+    Bytes raw(entry->raw_bytes);
     const Result<void> read = file.read_page(page, scratch, raw);
     if (!read && read.error().page != page) std::abort();
   }
@@ -49,6 +54,8 @@ void open_and_read(std::span<const std::byte> bytes) {
   const Result<PageFile> file = PageFile::open(memory.path());
   if (file) {
     read_all_pages(*file);
+    for (const ExtensionRecord& record : file->extensions())
+      static_cast<void>(file->read_extension(record));
   } else if (file.error().text[0] == 0) {
     std::abort();
   }

@@ -40,18 +40,19 @@ bool decode(std::span<const std::byte> bytes, PageInfo info, Frame& frame) {
   head.page_number = info.page_number;
   std::copy_n(reinterpret_cast<const std::byte*>(&head), head_bytes, raw.begin());
   info.octcode = head.octcode;
-  info.ordinal = head.ordinal;
   return static_cast<bool>(decode_mask_page(raw, info, frame.bytes()));
 }
 
-void check(const MaskBlocks& blocks, const LinkFormat& links) {
+void check(const MaskBlocks& blocks, const LinkFormat& links, std::uint32_t max_blocks) {
   if (blocks.count > kMaxListed) std::abort();
   if (blocks.count > 0 &&
       (!blocks.slab.direction_is_valid() || blocks.slab.lower > blocks.slab.upper))
     std::abort();
   for (unsigned i = 0; i < blocks.count; ++i) {
     const std::uint32_t link = blocks.links[i];
-    if (!LinkFormat::is_leaf(link) || links.page(link) >= kFirstPage) std::abort();
+    if (!LinkFormat::is_leaf(link) || links.page(link) >= kFirstPage ||
+        links.number(link) >= max_blocks)
+      std::abort();
     if (i > 0 && blocks.links[i - 1] >= link) std::abort();
     if (blocks.octants[i] == 0) std::abort();
   }
@@ -66,7 +67,7 @@ void check(const MaskLookup& found, const Point& point, const MaskInfo& mask) {
       !std::all_of(found.corners.begin(), found.corners.end(), fits))
     std::abort();
   if (found.on_surface && found.kind != Kind::kPlanes) std::abort();
-  check(found.blocks, LinkFormat(mask.page_bytes));
+  check(found.blocks, LinkFormat(mask.page_bytes), max_page_blocks(mask.page_bytes));
   if (found.blocks.count > 0 && (found.kind != Kind::kCorners || found.cell.level == kLevels))
     std::abort();
   const CellGrid grid(mask.lower);

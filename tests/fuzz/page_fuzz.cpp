@@ -44,7 +44,6 @@ bool decode(std::span<const std::byte> bytes, PageInfo info, Frame& frame) {
   head.page_number = info.page_number;
   std::copy_n(reinterpret_cast<const std::byte*>(&head), head_bytes, raw.begin());
   info.octcode = head.octcode;
-  info.ordinal = head.ordinal;
   return static_cast<bool>(decode_page(raw, info, frame.bytes()));
 }
 
@@ -96,7 +95,7 @@ void decode_and_query(std::uint8_t choices, std::span<const std::byte> first,
                       std::span<const std::byte> second) {
   PageInfo info;
   info.page_bytes = (choices & kLargePages) != 0 ? 65536 : 4096;
-  info.page_count = kPageCount;
+  info.page_count = (choices & kRootIsBlock) != 0 ? 1 : kPageCount;
   info.shape = {(choices & kFloat64) != 0, (choices & kWideIds) != 0, (choices & kMoments) != 0};
   Frame root(info.page_bytes), other(info.page_bytes);
   if (!decode(first, info, root)) return;
@@ -111,9 +110,7 @@ void decode_and_query(std::uint8_t choices, std::span<const std::byte> first,
   tree.core_lower = tree.box_lower;
   tree.core_upper = tree.box_upper;
   const bool leaf = (choices & kRootIsBlock) != 0;
-  tree.root_link =
-      LinkFormat(info.page_bytes)
-          .make(leaf, 0, leaf ? root.header().first_block_slot : root.header().first_node_slot);
+  tree.root_link = root_link_of(info.page_bytes, 0, leaf ? 0 : 1);
   query_tree(tree, pages);
 }
 

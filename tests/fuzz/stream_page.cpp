@@ -16,7 +16,6 @@ enum : std::uint8_t {
   kNodes,
   kBlocks,
   kRootNodes,
-  kRootBlocks,
   kChildren,
   kPageLinks,
   kVertices,
@@ -53,31 +52,29 @@ std::vector<PageStream> distance_streams(const BlockShape& shape) {
     streams.push_back({2, kChildren, 1, true, {}});
     streams.push_back({2, kChildren, 1, true, {}});
   }
-  const PageStream others[] = {{4, kPageLinks, 1, false, {}},
-                               {1, kBlocks, 1, false, {}},
-                               {1, kBlocks, 1, false, {}},
-                               {1, kBlocks, 1, false, {}},
-                               {2, kVertexRefs, 1, false, {}},
-                               {1, kCornerBytes, 1, false, {}},
-                               {coordinate, kVertices, 3, false, {}},
-                               {index, kBlocks, 1, false, {}},
-                               {index, kFurtherTriangles, 1, false, {}}};
+  const PageStream others[] = {
+      {4, kPageLinks, 1, false, {}},   {2, kPageLinks, 1, false, {}},
+      {1, kBlocks, 1, false, {}},      {1, kBlocks, 1, false, {}},
+      {1, kBlocks, 1, false, {}},      {2, kVertexRefs, 1, false, {}},
+      {1, kCornerBytes, 1, false, {}}, {coordinate, kVertices, 3, false, {}},
+      {index, kBlocks, 1, false, {}},  {index, kFurtherTriangles, 1, false, {}}};
   streams.insert(streams.end(), std::begin(others), std::end(others));
   return streams;
 }
 
 std::vector<PageStream> mask_streams(const BlockShape& shape) {
   const unsigned coordinate = shape.float64 ? 8 : 4;
-  return {{1, kRecords, 1, false, {}},      {1, kMaskNodes, 1, false, {}},
-          {1, kMaskNodes, 1, false, {}},    {1, kMaskNodes, 1, false, {}},
-          {1, kMaskNodes, 1, false, {}},    {4, kMaskPageLinks, 1, false, {}},
-          {1, kPlainCorners, 1, false, {}}, {1, kCornerLeaves, 8, false, {}},
-          {1, kSpecials, 1, false, {}},     {1, kSpecials, 1, false, {}},
-          {1, kSpecials, 1, false, {}},     {coordinate, kPlanes, 9, false, {}},
-          {1, kListed, 1, false, {}},       {1, kListed, 1, false, {}},
-          {1, kListed, 1, false, {}},       {2, kListed, 1, false, {}},
-          {1, kListed, 1, false, {}},       {1, kListed, 1, false, {}},
-          {1, kBlockLinks, 1, false, {}},   {4, kBlockLinks, 1, false, {}}};
+  return {{1, kRecords, 1, false, {}},         {1, kMaskNodes, 1, false, {}},
+          {1, kMaskNodes, 1, false, {}},       {1, kMaskNodes, 1, false, {}},
+          {1, kMaskNodes, 1, false, {}},       {4, kMaskPageLinks, 1, false, {}},
+          {2, kMaskPageLinks, 1, false, {}},   {1, kPlainCorners, 1, false, {}},
+          {1, kCornerLeaves, 8, false, {}},    {1, kSpecials, 1, false, {}},
+          {1, kSpecials, 1, false, {}},        {1, kSpecials, 1, false, {}},
+          {coordinate, kPlanes, 9, false, {}}, {1, kListed, 1, false, {}},
+          {1, kListed, 1, false, {}},          {1, kListed, 1, false, {}},
+          {2, kListed, 1, false, {}},          {1, kListed, 1, false, {}},
+          {1, kListed, 1, false, {}},          {1, kBlockLinks, 1, false, {}},
+          {4, kBlockLinks, 1, false, {}},      {2, kBlockLinks, 1, false, {}}};
 }
 
 }  // namespace
@@ -130,7 +127,7 @@ std::vector<std::byte> StreamPage::bytes() const {
   return raw;
 }
 
-std::size_t StreamPage::page_links() const { return is_mask_ ? 5 : shape_.moments ? 12 : 8; }
+std::size_t StreamPage::linked_pages() const { return is_mask_ ? 5 : shape_.moments ? 12 : 8; }
 
 std::uint16_t StreamPage::count(std::size_t index) const {
   std::uint16_t value = 0;
@@ -193,8 +190,8 @@ std::size_t StreamPage::sum(std::size_t stream, unsigned mask) const {
 }
 
 std::size_t StreamPage::corner_stream_bytes() const {
-  const PageStream& triangles = streams_[page_links() + 1];
-  const PageStream& vertices = streams_[page_links() + 2];
+  const PageStream& triangles = streams_[linked_pages() + 2];
+  const PageStream& vertices = streams_[linked_pages() + 3];
   std::size_t bytes = 0;
   for (std::size_t i = 0; i < triangles.size() && i < vertices.size(); ++i)
     bytes += corner_bytes(std::to_integer<unsigned>(triangles.bytes[i]) & kCountBits,
@@ -203,7 +200,7 @@ std::size_t StreamPage::corner_stream_bytes() const {
 }
 
 void StreamPage::fit_distance_head() {
-  const std::size_t blocks = page_links() + 1;
+  const std::size_t blocks = linked_pages() + 2;
   set_count(kChildren, sum(kChildCountStream));
   std::size_t links = 0;
   PageStream& kinds = streams_[kChildKindStream];
@@ -232,8 +229,8 @@ void StreamPage::fit_mask_head() {
   set_count(kCornerLeaves, records[3]);
   set_count(kSpecials, records[4]);
   set_count(kListed, records[5]);
-  set_count(kPlanes, sum(8));
-  set_count(kBlockLinks, sum(14));
+  set_count(kPlanes, sum(9));
+  set_count(kBlockLinks, sum(15));
 }
 
 }  // namespace planetree::octree

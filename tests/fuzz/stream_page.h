@@ -46,10 +46,10 @@ class StreamPage {
 
   std::array<std::byte, kHeadBytes>& head() { return head_; }
   std::vector<PageStream>& streams() { return streams_; }
-  /// Index of the stream of links to other pages.
-  [[nodiscard]] std::size_t page_links() const;
-  /// Index of the stream of links to blocks of lists; only in a mask page.
-  [[nodiscard]] std::size_t block_links() const { return streams_.size() - 1; }
+  /// Index of the stream of pages that links to other pages lead to. The next has the records.
+  [[nodiscard]] std::size_t linked_pages() const;
+  /// Index of the stream of pages that lists lead to; only in a mask page. The next has the blocks.
+  [[nodiscard]] std::size_t block_pages() const { return streams_.size() - 2; }
 
   [[nodiscard]] std::uint16_t count(std::size_t index) const;
   void set_count(std::size_t index, std::size_t value);

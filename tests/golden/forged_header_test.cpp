@@ -31,21 +31,11 @@ std::string open_with(const std::function<void(storage::FileHeader&)>& change) {
   return model ? "opened" : model.error().text;
 }
 
-std::string open_with_root_link(std::uint32_t link) {
-  return open_with([link](storage::FileHeader& header) { header.model.root_link = link; });
-}
-
 std::string open_with_counts(std::uint64_t nodes, std::uint64_t blocks) {
   return open_with([=](storage::FileHeader& header) {
     header.model.node_count = nodes;
     header.model.block_count = blocks;
   });
-}
-
-TEST(ForgedHeader, MustHaveItsRootOnPageZero) {
-  EXPECT_EQ(open_with_root_link(0x80000002), "opened");
-  for (const std::uint32_t page : {1u, 2u, 500'000u, (1u << 25) - 1})
-    EXPECT_NE(open_with_root_link(0x80000002 | page << 6).find("root"), std::string::npos) << page;
 }
 
 TEST(ForgedHeader, MayNotStateMoreRecordsThanItsPagesHold) {

@@ -20,6 +20,8 @@ std::string encoding_of() {
     return encoding_of<std::underlying_type_t<T>>();
   } else if constexpr (std::is_class_v<T>) {
     return "record";
+  } else if constexpr (std::is_same_v<T, char>) {
+    return "u8";
   } else {
     const char kind = std::is_floating_point_v<T> ? 'f' : std::is_signed_v<T> ? 'i' : 'u';
     return kind + std::to_string(8 * sizeof(T));
@@ -29,7 +31,8 @@ std::string encoding_of() {
 template <class Struct>
 class FieldList {
  public:
-  explicit FieldList(std::string heading) : struct_{std::move(heading), sizeof(Struct), {}} {}
+  explicit FieldList(std::string heading, std::size_t table = 0)
+      : struct_{std::move(heading), sizeof(Struct), {}, table} {}
 
   template <class T>
   FieldList& add(const char* name, std::size_t offset) {
@@ -57,8 +60,10 @@ FormatStruct header_fields() {
       .PLANETREE_FIELD(FileHeader, compatible_features)
       .PLANETREE_FIELD(FileHeader, file_bytes)
       .PLANETREE_FIELD(FileHeader, content_id)
-      .PLANETREE_FIELD(FileHeader, table_hash)
+      .PLANETREE_FIELD(FileHeader, extensions_hash)
+      .PLANETREE_FIELD(FileHeader, stored_bytes)
       .PLANETREE_FIELD(FileHeader, page_count)
+      .PLANETREE_FIELD(FileHeader, extension_count)
       .PLANETREE_FIELD(FileHeader, max_raw_bytes)
       .PLANETREE_FIELD(FileHeader, max_stored_bytes)
       .PLANETREE_FIELD(FileHeader, model)
@@ -82,7 +87,6 @@ FormatStruct model_fields() {
       .PLANETREE_FIELD(ModelRecord, sample)
       .PLANETREE_FIELD(ModelRecord, sample_triangle)
       .PLANETREE_FIELD(ModelRecord, scale_exponent)
-      .PLANETREE_FIELD(ModelRecord, root_link)
       .PLANETREE_FIELD(ModelRecord, vertex_kind)
       .PLANETREE_FIELD(ModelRecord, triangle_id_bytes)
       .PLANETREE_FIELD(ModelRecord, height)
@@ -106,7 +110,6 @@ FormatStruct model_fields() {
       .PLANETREE_FIELD(ModelRecord, cap_block_count)
       .PLANETREE_FIELD(ModelRecord, cap_area)
       .PLANETREE_FIELD(ModelRecord, cap_page_count)
-      .PLANETREE_FIELD(ModelRecord, cap_root_link)
       .PLANETREE_FIELD(ModelRecord, cap_height)
       .PLANETREE_FIELD(ModelRecord, cap_reserved)
       .PLANETREE_FIELD(ModelRecord, openness)
@@ -138,15 +141,33 @@ FormatStruct unbalanced_edge_fields() {
 }
 
 FormatStruct entry_fields() {
-  using storage::PageEntry;
-  return FieldList<PageEntry>("Page table")
-      .PLANETREE_FIELD(PageEntry, offset)
-      .PLANETREE_FIELD(PageEntry, check)
-      .PLANETREE_FIELD(PageEntry, octcode)
-      .PLANETREE_FIELD(PageEntry, ordinal)
-      .PLANETREE_FIELD(PageEntry, codec)
-      .PLANETREE_FIELD(PageEntry, stored_bytes)
-      .PLANETREE_FIELD(PageEntry, raw_bytes)
+  using storage::DirectoryPage;
+  return FieldList<DirectoryPage>("Directory")
+      .PLANETREE_FIELD(DirectoryPage, check)
+      .PLANETREE_FIELD(DirectoryPage, octcode)
+      .PLANETREE_FIELD(DirectoryPage, stored_bytes)
+      .PLANETREE_FIELD(DirectoryPage, raw_bytes)
+      .take();
+}
+
+FormatStruct directory_block_fields() {
+  using storage::DirectoryBlock;
+  return FieldList<DirectoryBlock>("Directory", 1)
+      .PLANETREE_FIELD(DirectoryBlock, check)
+      .PLANETREE_FIELD(DirectoryBlock, octcode)
+      .PLANETREE_FIELD(DirectoryBlock, offset)
+      .take();
+}
+
+FormatStruct extension_fields() {
+  using storage::ExtensionRecord;
+  return FieldList<ExtensionRecord>("Extensions")
+      .PLANETREE_FIELD(ExtensionRecord, name)
+      .PLANETREE_FIELD(ExtensionRecord, offset)
+      .PLANETREE_FIELD(ExtensionRecord, bytes)
+      .PLANETREE_FIELD(ExtensionRecord, check)
+      .PLANETREE_FIELD(ExtensionRecord, required)
+      .PLANETREE_FIELD(ExtensionRecord, reserved)
       .take();
 }
 
@@ -158,8 +179,7 @@ FormatStruct page_head_fields() {
       .PLANETREE_FIELD(PageHead, octcode)
       .PLANETREE_FIELD(PageHead, node_count)
       .PLANETREE_FIELD(PageHead, block_count)
-      .PLANETREE_FIELD(PageHead, root_node_count)
-      .PLANETREE_FIELD(PageHead, root_block_count)
+      .PLANETREE_FIELD(PageHead, root_count)
       .PLANETREE_FIELD(PageHead, child_count)
       .PLANETREE_FIELD(PageHead, page_link_count)
       .PLANETREE_FIELD(PageHead, vertex_count)
@@ -219,6 +239,7 @@ const std::vector<FormatStruct>& format_structs() {
   static const std::vector<FormatStruct> all = {
       header_fields(),          model_fields(),
       unbalanced_edge_fields(), entry_fields(),
+      directory_block_fields(), extension_fields(),
       page_head_fields(),       mask_page_head_fields(),
       field_page_head_fields(), attribute_page_head_fields()};
   return all;

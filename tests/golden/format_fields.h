@@ -22,12 +22,14 @@ struct FormatStruct {
   std::string heading;  ///< heading of the specification's section with the table
   std::size_t size;
   std::vector<FormatField> fields;
+  std::size_t table = 0;  ///< rank of the table among those of fields in its section
 };
 
-/// Fields of the header, the model record, unbalanced edges, page entries, and the heads of pages.
+/// Fields of the header, the model record, unbalanced edges, entries of the directory, extension
+/// records, and the heads of pages.
 const std::vector<FormatStruct>& format_structs();
 
-/// The struct with the given heading.
+/// The first struct with the given heading.
 const FormatStruct& format_struct(const std::string& heading);
 
 }  // namespace planetree::golden

@@ -76,7 +76,13 @@ const Sample& region_sample() {
 }
 
 const Sample& painted_sample() {
-  static const Sample sample = {"painted.ply", "painted.ptree", 4096, std::nullopt, kAllAttributes};
+  static const Sample sample = {
+      "painted.ply",
+      "painted.ptree",
+      4096,
+      std::nullopt,
+      kAllAttributes,
+      {{"crs", "EPSG:25832"}, {"unit", "mm"}, {"up", "z"}, {"title", "Drum \u00d8 2 mm"}}};
   return sample;
 }
 
@@ -99,7 +105,8 @@ std::vector<std::byte> read_file(const std::filesystem::path& path) {
 
 std::vector<std::byte> build_bytes(const std::filesystem::path& mesh, std::uint32_t page_bytes,
                                    unsigned threads, const std::optional<octree::RegionBox>& box,
-                                   std::uint32_t layers, std::uint32_t keep) {
+                                   std::uint32_t layers, std::uint32_t keep,
+                                   const Metadata& metadata) {
   const storage::TemporaryDirectory folder;
   octree::BuildOptions options;
   options.page_bytes = page_bytes;
@@ -107,6 +114,7 @@ std::vector<std::byte> build_bytes(const std::filesystem::path& mesh, std::uint3
   options.box = box;
   options.layers = layers;
   options.keep = keep;
+  options.metadata = metadata;
   Silence silence;
   const auto report = octree::build_tree(mesh, folder / "built.ptree", options, silence);
   if (!report) throw std::runtime_error(report.error().text);
@@ -115,7 +123,7 @@ std::vector<std::byte> build_bytes(const std::filesystem::path& mesh, std::uint3
 
 std::vector<std::byte> build_bytes(const Sample& sample, unsigned threads) {
   return build_bytes(sample.mesh_path(), sample.page_bytes, threads, sample.box, kAllLayers,
-                     sample.keep);
+                     sample.keep, sample.metadata);
 }
 
 std::vector<std::byte> build_with_hole(const Sample& sample, std::uint64_t count) {

@@ -13,6 +13,7 @@
 #include "octree/builder/job/region_box.h"
 #include "planetree/attributes.h"
 #include "planetree/layers.h"
+#include "planetree/metadata.h"
 #include "planetree/types.h"
 
 /// The files in format-spec/v1/samples: each a mesh and the .ptree file built from it.
@@ -24,6 +25,7 @@ struct Sample {
   std::uint32_t page_bytes;
   std::optional<octree::RegionBox> box = std::nullopt;  ///< region of the .ptree file, if any
   std::uint32_t keep = 0;                               ///< attributes of the .ptree file
+  Metadata metadata = {};                               ///< of the .ptree file
 
   std::filesystem::path mesh_path() const;
   std::filesystem::path ptree_path() const;
@@ -42,7 +44,8 @@ const Sample& sphere_sample();
 /// The sample of a region, which samples() does not contain, and the sample of its whole mesh.
 const Sample& region_sample();
 const Sample& boxes_sample();
-/// The sample with all attributes, which samples() does not contain. It has two attribute pages.
+/// The sample with all attributes and with metadata, which samples() does not contain. It has two
+/// attribute pages.
 const Sample& painted_sample();
 /// samples(), region_sample() and painted_sample().
 const std::vector<Sample>& all_samples();
@@ -53,7 +56,8 @@ std::vector<std::byte> read_file(const std::filesystem::path& path);
 std::vector<std::byte> build_bytes(const std::filesystem::path& mesh, std::uint32_t page_bytes,
                                    unsigned threads,
                                    const std::optional<octree::RegionBox>& box = std::nullopt,
-                                   std::uint32_t layers = kAllLayers, std::uint32_t keep = 0);
+                                   std::uint32_t layers = kAllLayers, std::uint32_t keep = 0,
+                                   const Metadata& metadata = {});
 /// The bytes of a sample's .ptree file, built again.
 std::vector<std::byte> build_bytes(const Sample& sample, unsigned threads);
 

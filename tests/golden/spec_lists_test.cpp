@@ -81,7 +81,7 @@ class SpecLists : public testing::TestWithParam<Sample> {
   SpecTree tree_;
   SpecTree whole_;
   std::vector<SpecTriangle> all_;  // of the closed surface
-  std::map<std::uint32_t, SpecBlock> blocks_;
+  std::map<SpecLink, SpecBlock> blocks_;
 
  private:
   void add_blocks(const SpecTree& tree) {
@@ -144,7 +144,7 @@ TEST_P(SpecLists, LeadToBlocks) {
 TEST_P(SpecLists, HaveEveryBlockThatTouchesAnOctant) {
   std::size_t bits = 0, needed = 0;
   each_listed([&](const SpecCell& cell, const SpecMaskRecord& record) {
-    std::map<std::uint32_t, unsigned> stated;
+    std::map<SpecLink, unsigned> stated;
     for (const SpecListedBlock& listed : record.blocks) {
       stated[listed.link] = listed.octants;
       for (unsigned i = 0; i < 8; ++i) bits += listed.octants >> i & 1;
@@ -255,7 +255,7 @@ TEST(SpecListsOfManyBlocks, AreNotStored) {
   mesh.close();
   const SpecFile file(build_bytes(folder / "cones.obj", 4096, 1));
   const SpecTree tree(file);
-  const std::vector<SpecTriangle> all = tree.triangles(tree.header().root_link);
+  const std::vector<SpecTriangle> all = tree.triangles(tree.header().root_link());
   const SpecMask mask(file);
   std::size_t plain = 0;
   mask.each_grey([&](const SpecCell& cell, const SpecMaskRecord& record) {

@@ -31,9 +31,10 @@ class MaskPageReader {
 
   SpecMaskPage read() {
     cut();
-    std::uint32_t slots = 8 + header_.page_bytes / 512 + head_.records + 9u * head_.planes;
-    for (const unsigned count : block_counts_) slots += (count + 7) / 8 + (count + 2) / 2;
-    require(slots <= header_.page_bytes / 8, "the records do not fit");
+    std::uint32_t weight = head_.records + 9u * head_.planes;
+    for (const unsigned count : block_counts_) weight += (count + 7) / 8 + (count + 2) / 2;
+    require(weight <= header_.page_bytes / 8 - header_.page_bytes / 512 - 8,
+            "the records do not fit");
     SpecMaskPage page{head_.octcode, head_.ordinal, head_.roots, {}};
     next_family_ = head_.roots;
     for (std::size_t i = 0; i < head_.records; ++i) {
@@ -52,7 +53,8 @@ class MaskPageReader {
     kinds_ = layout_.byte_split<std::uint8_t>(head_.records);
     for (std::vector<std::uint8_t>& masks : masks_)
       masks = layout_.byte_split<std::uint8_t>(head_.nodes);
-    page_links_ = layout_.byte_split<std::uint32_t>(head_.page_links);
+    linked_pages_ = layout_.byte_split<std::uint32_t>(head_.page_links);
+    linked_records_ = layout_.byte_split<std::uint16_t>(head_.page_links);
     corner_bits_ = layout_.byte_split<std::uint8_t>(head_.plain);
     corner_numbers_ = layout_.byte_split<std::int8_t>(8u * head_.corners);
     plane_counts_ = layout_.byte_split<std::uint8_t>(head_.special);
@@ -66,7 +68,8 @@ class MaskPageReader {
     slab_lowers_ = layout_.byte_split<std::uint8_t>(head_.listed);
     slab_uppers_ = layout_.byte_split<std::uint8_t>(head_.listed);
     block_octants_ = layout_.byte_split<std::uint8_t>(head_.block_links);
-    block_links_ = layout_.byte_split<std::uint32_t>(head_.block_links);
+    block_pages_ = layout_.byte_split<std::uint32_t>(head_.block_links);
+    block_numbers_ = layout_.byte_split<std::uint16_t>(head_.block_links);
     require(layout_.empty(), "the page is too long");
   }
 
@@ -104,12 +107,14 @@ class MaskPageReader {
             "colours");
     if (record.kind == 1) {
       require(record.grey != 0, "a family of nobody");
-      record.family = page_links_.at(link_++);
+      record.family = {linked_pages_.at(link_), linked_records_.at(link_)};
+      ++link_;
+      require(
+          number_ - header_.d() < record.family.first && record.family.first < header_.mask_pages,
+          "a page link");
       return;
     }
-    const std::uint32_t slots = header_.page_bytes / 8;
-    const auto slot = static_cast<std::uint32_t>(8 + header_.page_bytes / 512 + next_family_);
-    record.family = (number_ - header_.d()) * slots + slot;
+    record.family = {number_ - header_.d(), next_family_};
     for (unsigned octant = 0; octant < 8; ++octant)
       if ((record.grey >> octant & 1) != 0)
         require((kinds_.at(next_family_++) >= 2) == ((record.leaf >> octant & 1) != 0), "leaves");
@@ -137,10 +142,12 @@ class MaskPageReader {
     const unsigned count = block_counts_.at(listed_++);
     require(count >= 1 && count <= 16, "blocks of a list");
     for (unsigned i = 0; i < count; ++i, ++block_) {
-      const SpecListedBlock block{block_octants_.at(block_), block_links_.at(block_)};
+      const std::uint32_t number = block_numbers_.at(block_);
+      const SpecListedBlock block{block_octants_.at(block_),
+                                  spec_link(true, block_pages_.at(block_), number)};
       require(block.octants != 0, "a listed block without an octant");
-      require(block.link >> 31 == 1, "a list of nodes");
-      require((block.link & 0x7fffffff) / (header_.page_bytes / 64) < header_.e(), "a list's page");
+      require(page_of_link(block.link) < header_.e(), "a list's page");
+      require(number < header_.page_bytes / 256, "a list's block");
       require(i == 0 || record.blocks.back().link < block.link, "order of a list");
       record.blocks.push_back(block);
     }
@@ -165,9 +172,9 @@ class MaskPageReader {
   MaskHead head_{};
   std::vector<std::uint8_t> kinds_, corner_bits_, plane_counts_;
   std::vector<std::uint8_t> higher_, block_counts_, block_octants_, slab_lowers_, slab_uppers_;
-  std::vector<std::uint16_t> slab_directions_;
+  std::vector<std::uint16_t> slab_directions_, linked_records_, block_numbers_;
   std::array<std::vector<std::uint8_t>, 4> masks_;
-  std::vector<std::uint32_t> page_links_, block_links_;
+  std::vector<std::uint32_t> linked_pages_, block_pages_;
   std::vector<std::int8_t> corner_numbers_, behind_, beyond_, min_;
   std::vector<double> coordinates_;
   std::size_t next_family_ = 0;
@@ -212,13 +219,8 @@ SpecMask::SpecMask(const SpecFile& file) : header_(file.header()) {
     pages_.push_back(decode_spec_mask_page(file.raw_page(k), k, header_));
 }
 
-std::pair<std::size_t, std::size_t> SpecMask::index_of(std::uint32_t link) const {
-  const std::uint32_t slots = header_.page_bytes / 8;
-  return {link / slots, link % slots - (8 + header_.page_bytes / 512)};
-}
-
 const SpecMaskRecord& SpecMask::octant(const SpecMaskRecord& node, unsigned number) const {
-  const auto [page, first] = index_of(node.family);
+  const auto [page, first] = node.family;
   const unsigned before = node.grey & ((1U << number) - 1);
   return pages_.at(page).records.at(first + static_cast<unsigned>(std::popcount(before)));
 }

@@ -24,7 +24,7 @@ using SpecPlane = std::array<SpecPoint, 3>;
 /// An entry of the list of a listed leaf.
 struct SpecListedBlock {
   unsigned octants;
-  std::uint32_t link;  ///< leads to a SpecBlock
+  SpecLink link;  ///< leads to a SpecBlock
 };
 
 /// "Slabs of listed leaves". Points are in cell coordinates, as from SpecMask::in_cell().
@@ -47,7 +47,8 @@ struct SpecSlab {
 struct SpecMaskRecord {
   unsigned kind = 0;
   unsigned grey = 0, leaf = 0, black = 0, inverted = 0;
-  std::uint32_t family = 0;  ///< link to the first grey octant
+  /// Page within the mask, and record, of the first grey octant.
+  std::pair<std::size_t, std::size_t> family;
   std::array<int, 8> corners{};
   int behind = 0, beyond = 0;
   std::vector<SpecPlane> planes;
@@ -77,8 +78,6 @@ class SpecMask {
 
   const std::vector<SpecMaskPage>& pages() const { return pages_; }
   const SpecMaskRecord& root() const { return pages_.at(0).records.at(0); }
-  /// The target of a link: page within the mask, and record.
-  std::pair<std::size_t, std::size_t> index_of(std::uint32_t link) const;
   /// The record of a grey octant.
   const SpecMaskRecord& octant(const SpecMaskRecord& node, unsigned number) const;
   /// Corner `number` of a cell in the model frame. In a file of a region it is clamped to the

@@ -109,7 +109,7 @@ TEST_P(SpecMasks, PagesHaveOneParentAndTheKeysOfTheirFirstFamilies) {
     for (const SpecMaskRecord& record : mask_.pages()[k].records) page_of[&record] = k;
   mask_.each_grey([&](const SpecCell& cell, const SpecMaskRecord& record) {
     if (record.kind != 1) return;
-    const auto [page, first] = mask_.index_of(record.family);
+    const auto [page, first] = record.family;
     EXPECT_GT(page, page_of[&record]);
     EXPECT_LT(first, mask_.pages().at(page).root_count);
     EXPECT_EQ(parent_of.emplace(page, page_of[&record]).first->second, page_of[&record]);

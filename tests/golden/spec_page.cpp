@@ -12,8 +12,8 @@ namespace {
 struct Head {
   std::uint32_t page_number, ordinal;
   std::uint64_t octcode;
-  std::uint16_t nodes, blocks, root_nodes, root_blocks, children, page_links;
-  std::uint16_t vertices, vertex_refs, triangles, reserved[3];
+  std::uint16_t nodes, blocks, roots, children, page_links;
+  std::uint16_t vertices, vertex_refs, triangles, reserved[4];
 };
 static_assert(sizeof(Head) == 40);
 
@@ -29,18 +29,18 @@ class PageReader {
     cut_node_streams();
     cut_block_streams();
     require(layout_.empty(), "the page is too long");
-    place_records();
+    require_capacity();
     SpecPage page{head_.octcode, head_.ordinal, {}, {}, {}};
     read_nodes(page);
-    for (std::size_t j = 0; j < head_.blocks; ++j) page.blocks[block_links_[j]] = read_block(j);
-    for (std::size_t i = 0; i < head_.root_nodes; ++i) page.roots.insert(node_links_[i]);
-    for (std::size_t j = 0; j < head_.root_blocks; ++j) page.roots.insert(block_links_[j]);
+    for (std::size_t j = 0; j < head_.blocks; ++j) page.blocks[block_link(j)] = read_block(j);
+    for (std::size_t i = 0; i < head_.roots; ++i) page.roots.insert(node_link(i));
+    if (head_.nodes == 0) page.roots.insert(block_link(0));
     return page;
   }
 
  private:
   void cut_node_streams() {
-    root_boxes_ = layout_.byte_split<float>(6u * head_.root_nodes);
+    root_boxes_ = layout_.byte_split<float>(6u * head_.roots);
     child_counts_ = layout_.byte_split<std::uint8_t>(head_.nodes);
     heights_ = layout_.byte_split<std::uint8_t>(head_.nodes);
     kinds_ = layout_.byte_split<std::uint16_t>(head_.nodes);
@@ -54,7 +54,8 @@ class PageReader {
       areas_ = layout_.byte_split<std::uint16_t>(head_.children);
       seconds_ = layout_.byte_split<std::uint16_t>(head_.children);
     }
-    page_links_ = layout_.byte_split<std::uint32_t>(head_.page_links);
+    linked_pages_ = layout_.byte_split<std::uint32_t>(head_.page_links);
+    linked_nodes_ = layout_.byte_split<std::uint16_t>(head_.page_links);
   }
 
   void cut_block_streams() {
@@ -82,30 +83,34 @@ class PageReader {
     return vertex_counts_[block] <= 16 ? 4 : vertex_counts_[block] <= 32 ? 5 : 6;
   }
 
-  std::uint32_t block_slots(std::size_t block) const {
+  std::uint32_t block_weight(std::size_t block) const {
     const unsigned v = vertex_counts_[block];
     const std::size_t row = v <= 16 ? 0 : v <= 24 ? 1 : v <= 32 ? 2 : 3;
-    constexpr std::uint32_t kSlots[4][2] = {{5, 11}, {7, 16}, {8, 20}, {11, 29}};
-    return kSlots[row][header_.float64] + (header_.wide_ids ? 1 : 0) - (compact_[block] ? 1 : 0);
+    constexpr std::uint32_t kWeights[4][2] = {{5, 11}, {7, 16}, {8, 20}, {11, 29}};
+    return kWeights[row][header_.float64] + (header_.wide_ids ? 1 : 0) - (compact_[block] ? 1 : 0);
   }
 
-  void place_records() {
-    const std::uint32_t slots = header_.page_bytes / 64;
-    std::uint32_t slot = 1 + (header_.page_bytes + 32767) / 32768;
-    for (std::size_t i = 0; i < head_.nodes; ++i, slot += of_caps_ ? 7 : 5)
-      node_links_.push_back(number_ * slots + slot);
-    for (std::size_t j = 0; j < head_.blocks; ++j) {
-      block_links_.push_back(0x80000000 | (number_ * slots + slot));
-      slot += block_slots(j);
-    }
-    require(slot <= slots, "the records do not fit");
+  SpecLink node_link(std::size_t i) const { return spec_link(false, number_, i); }
+  SpecLink block_link(std::size_t j) const { return spec_link(true, number_, j); }
+
+  std::uint32_t node_weight() const { return of_caps_ ? 7 : 5; }
+  // "Capacity of a distance page".
+  std::uint32_t capacity() const {
+    return header_.page_bytes / 64 - 1 - (header_.page_bytes + 8191) / 8192;
+  }
+  void require_capacity() const {
+    std::uint32_t weight = head_.nodes * node_weight();
+    for (std::size_t j = 0; j < head_.blocks; ++j) weight += block_weight(j);
+    require(weight <= capacity(), "the records do not fit");
   }
 
   void read_nodes(SpecPage& page) {
+    require(head_.nodes > 0 || (head_.blocks == 1 && pages_of_tree() == 1), "a lone block");
+    require((head_.roots > 0) == (head_.nodes > 0), "roots");
     std::vector<SpecBox> boxes(head_.nodes);
-    for (std::size_t i = 0; i < head_.root_nodes; ++i)
+    for (std::size_t i = 0; i < head_.roots; ++i)
       std::memcpy(&boxes[i], &root_boxes_[6 * i], sizeof(SpecBox));
-    std::size_t child = 0, next_node = head_.root_nodes, next_block = head_.root_blocks;
+    std::size_t child = 0, next_node = head_.roots, next_block = head_.nodes == 0 ? 1 : 0;
     std::size_t next_link = 0;
     for (std::size_t i = 0; i < head_.nodes; ++i) {
       require(i < next_node, "a node without a parent");
@@ -115,23 +120,25 @@ class PageReader {
         const unsigned kind = kinds_[i] >> (2 * c) & 3;
         require(kind < 3, "kind of a child");
         if (kind == 0) boxes.at(next_node) = read.box;
-        read.link = kind == 0   ? node_links_.at(next_node++)
-                    : kind == 1 ? block_links_.at(next_block++)
+        read.link = kind == 0   ? node_link(next_node++)
+                    : kind == 1 ? block_link(next_block++)
                                 : page_link(next_link++);
         node.children.push_back(read);
       }
-      page.nodes[node_links_[i]] = node;
+      page.nodes[node_link(i)] = node;
     }
     require(child == head_.children && next_node == head_.nodes && next_block == head_.blocks &&
                 next_link == head_.page_links,
             "children do not add up");
   }
 
-  std::uint32_t page_link(std::size_t at) const {
-    const std::uint32_t link = page_links_.at(at);
-    const std::uint32_t page = (link & 0x7fffffff) / (header_.page_bytes / 64);
+  std::uint32_t pages_of_tree() const { return of_caps_ ? header_.e() - header_.c() : header_.c(); }
+
+  SpecLink page_link(std::size_t at) const {
+    const std::uint32_t page = linked_pages_.at(at);
     require(number_ < page && page < (of_caps_ ? header_.e() : header_.c()), "a page link");
-    return link;
+    require(linked_nodes_.at(at) < capacity() / node_weight(), "a linked node");
+    return spec_link(false, page, linked_nodes_.at(at));
   }
 
   SpecChild read_child(const SpecBox& parent, std::size_t child) const {
@@ -227,7 +234,8 @@ class PageReader {
   std::vector<std::uint16_t> kinds_, radii_, areas_, seconds_, vertex_refs_;
   std::vector<std::int16_t> normals_, slabs_, vectors_;
   std::vector<std::int8_t> firsts_;
-  std::vector<std::uint32_t> page_links_, node_links_, block_links_;
+  std::vector<std::uint32_t> linked_pages_;
+  std::vector<std::uint16_t> linked_nodes_;
   std::vector<std::span<const std::byte>> corners_;
   std::vector<double> vertices_;
   std::vector<std::uint64_t> first_ids_, id_steps_;

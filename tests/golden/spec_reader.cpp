@@ -24,14 +24,12 @@ T get(Bytes bytes, std::size_t offset) {
   return value;
 }
 
-std::uint64_t hash64(Bytes bytes, std::uint64_t seed) {
-  return XXH3_64bits_withSeed(bytes.data(), bytes.size(), seed);
-}
+std::uint64_t hash64(Bytes bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }
 
 bool is_whole(Bytes header) {
   constexpr unsigned char kMagic[8] = {0x89, 'P', 'T', 'R', 'E', 'E', 0x0d, 0x0a};
   return std::memcmp(header.data(), kMagic, 8) == 0 &&
-         hash64(header.first(752), 0) == get<std::uint64_t>(header, 752);
+         hash64(header.first(1016)) == get<std::uint64_t>(header, 1016);
 }
 
 // "Region": sides within the mesh's box are walls.
@@ -58,8 +56,7 @@ void read_caps(Bytes model, SpecHeader& read) {
   read.cap_block_count = get<std::uint64_t>(model, 528);
   read.cap_area = get<double>(model, 536);
   read.cap_pages = get<std::uint32_t>(model, 544);
-  read.cap_root_link = get<std::uint32_t>(model, 548);
-  read.cap_height = get<std::uint8_t>(model, 552);
+  read.cap_height = get<std::uint8_t>(model, 548);
   const auto without_sides = get<std::uint8_t>(model, 570);
   require(without_sides <= 1, "mark of a file without sides");
   read.without_sides = without_sides == 1;
@@ -68,7 +65,7 @@ void read_caps(Bytes model, SpecHeader& read) {
   for (const bool has_some : {read.cap_pages > 0, read.cap_block_count > 0, needs_caps})
     require(has_some == (read.cap_count > 0), "caps");
   require((read.cap_node_count > 0) == (read.cap_count > 16), "nodes of caps");
-  for (std::size_t at = 553; at < 560; ++at)
+  for (std::size_t at = 549; at < 560; ++at)
     require(get<std::uint8_t>(model, at) == 0, "reserved bytes of caps");
 }
 
@@ -99,15 +96,15 @@ void read_attributes(Bytes model, SpecHeader& read) {
 }
 
 SpecHeader read_header(Bytes header) {
-  const Bytes model = header.subspan(80, 640);
+  const Bytes model = header.subspan(120, 640);
   SpecHeader read{};
   read.page_bytes = get<std::uint32_t>(header, 12);
   require(
       std::has_single_bit(read.page_bytes) && read.page_bytes >= 4096 && read.page_bytes <= 262144,
       "page size");
-  for (std::size_t at = 720; at < 752; ++at)
+  for (std::size_t at = 760; at < 1016; ++at)
     require(get<std::uint8_t>(header, at) == 0, "reserved bytes of the header");
-  read.page_count = get<std::uint32_t>(header, 64);
+  read.page_count = get<std::uint32_t>(header, 104);
   read.triangle_count = get<std::uint64_t>(model, 0);
   read.skipped_count = get<std::uint64_t>(model, 8);
   read.node_count = get<std::uint64_t>(model, 32);
@@ -125,10 +122,9 @@ SpecHeader read_header(Bytes header) {
   read.sample = get<SpecPoint>(model, 120);
   read.sample_triangle = get<std::uint64_t>(model, 144);
   read.scale_exponent = get<std::int32_t>(model, 152);
-  read.root_link = get<std::uint32_t>(model, 156);
-  read.float64 = get<std::uint8_t>(model, 160) == 1;
-  read.wide_ids = get<std::uint8_t>(model, 161) == 8;
-  read.height = get<std::uint8_t>(model, 162);
+  read.float64 = get<std::uint8_t>(model, 156) == 1;
+  read.wide_ids = get<std::uint8_t>(model, 157) == 8;
+  read.height = get<std::uint8_t>(model, 158);
   read.mask_cells = get<std::uint64_t>(model, 368);
   read.mask_pages = get<std::uint32_t>(model, 376);
   read.mask_levels = get<std::uint8_t>(model, 380);
@@ -161,64 +157,86 @@ std::uint64_t SpecHeader::attribute_page_triangles() const {
 
 SpecFile::SpecFile(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {
   const Bytes header = choose_header();
-  require(get<std::uint16_t>(header, 8) == 14, "another version");
-  require(get<std::uint16_t>(header, 10) == 760, "header length");
+  require(get<std::uint16_t>(header, 8) / 256 == 1, "another version");
+  require(get<std::uint16_t>(header, 10) == 1024, "header length");
   require(get<std::uint64_t>(header, 16) == 0, "unknown features");
   require(get<std::uint64_t>(header, 32) == bytes_.size(), "file length");
   header_ = read_header(header);
-  content_id_ = get<std::uint64_t>(header, 40);
-  check_table(header);
+  check_directory(header);
 }
 
 Bytes SpecFile::choose_header() const {
   const Bytes all(bytes_);
-  require(all.size() >= 1561, "too short");
-  if (is_whole(all.first(760))) return all.first(760);
-  require(is_whole(all.last(760)), "no whole header");
-  return all.last(760);
+  require(all.size() >= 2073, "too short");
+  if (is_whole(all.first(1024))) return all.first(1024);
+  require(is_whole(all.last(1024)), "no whole header");
+  return all.last(1024);
 }
 
-void SpecFile::check_table(Bytes header) const {
-  const Bytes table = Bytes(bytes_).subspan(760, std::size_t{40} * header_.page_count);
-  require(hash64(table, 0) == get<std::uint64_t>(header, 56), "table hash");
-  std::vector<std::uint64_t> page_hashes;
-  std::uint64_t end = 760 + table.size();
-  for (std::uint32_t k = 0; k < header_.page_count; ++k) {
-    page_hashes.push_back(get<std::uint64_t>(entry(k), 8) ^ content_id_);
-    require(get<std::uint64_t>(entry(k), 0) == end, "pages do not tile the file");
-    end += get<std::uint32_t>(entry(k), 32);
+// "Directory", level by level from the root: each block has the hash that is stated of it.
+void SpecFile::check_directory(Bytes header) {
+  std::vector<std::size_t> levels{header_.page_count};
+  while (levels.front() > 512) levels.insert(levels.begin(), (levels.front() + 511) / 512);
+  std::size_t at = 1024 + std::size_t{64} * get<std::uint32_t>(header, 108);
+  const XXH128_hash_t id = XXH3_128bits(bytes_.data() + at, 24 * levels.front());
+  require(id.low64 == get<std::uint64_t>(header, 40) && id.high64 == get<std::uint64_t>(header, 48),
+          "content id");
+  for (std::size_t level = 0; level + 1 < levels.size(); ++level) {
+    const std::size_t below = at + 24 * levels[level];
+    for (std::size_t i = 0; i < levels[level]; ++i) {
+      const std::size_t count = std::min<std::size_t>(512, levels[level + 1] - 512 * i);
+      const Bytes block = Bytes(bytes_).subspan(below + 24 * 512 * i, 24 * count);
+      require(hash64(block) == get<std::uint64_t>(Bytes(bytes_), at + 24 * i), "block hash");
+    }
+    at = below;
   }
-  require(end == bytes_.size() - 760, "pages do not tile the file");
-  const XXH128_hash_t id = XXH3_128bits(page_hashes.data(), 8 * page_hashes.size());
-  require(id.low64 == content_id_ && id.high64 == get<std::uint64_t>(header, 48), "content id");
+  first_entry_ = at;
+  find_pages(header);
   check_keys();
 }
 
-// "Page keys": keys ascend within each kind of page.
-void SpecFile::check_keys() const {
-  using Key = std::pair<std::uint64_t, std::uint32_t>;
-  const std::uint32_t c = header_.c(), e = header_.e(), a = header_.a(), d = header_.d();
-  Key last_key{};
+void SpecFile::find_pages(Bytes header) {
+  std::uint64_t end = first_entry_ + std::size_t{24} * header_.page_count;
   for (std::uint32_t k = 0; k < header_.page_count; ++k) {
-    const Key key(get<std::uint64_t>(entry(k), 16), get<std::uint32_t>(entry(k), 24));
-    require(k == 0 || k == c || k == e || k == a || k == d || last_key < key, "order of keys");
-    if (k >= e && k < d)
-      require(key == Key(0, k - (k < a ? e : a)), "key of a field page or an attribute page");
-    last_key = key;
+    offsets_.push_back(end);
+    end += get<std::uint32_t>(entry(k), 16);
+  }
+  const Bytes records = Bytes(bytes_).subspan(1024, 64 * get<std::uint32_t>(header, 108));
+  require(hash64(records) == get<std::uint64_t>(header, 56), "hash of extension records");
+  for (std::size_t at = 0; at < records.size(); at += 64) {
+    require(get<std::uint64_t>(records, at + 24) == end, "extensions do not tile the file");
+    const Bytes bytes = Bytes(bytes_).subspan(end, get<std::uint64_t>(records, at + 32));
+    require(hash64(bytes) == get<std::uint64_t>(records, at + 40), "hash of an extension");
+    const auto* const name = reinterpret_cast<const char*>(records.data() + at);
+    extensions_[std::string(name, ::strnlen(name, 24))] = {
+        reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+    end += bytes.size();
+  }
+  require(end == bytes_.size() - 1024, "pages and extensions do not tile the file");
+}
+
+// "Page keys": octcodes do not descend within each kind of page.
+void SpecFile::check_keys() const {
+  const std::uint32_t c = header_.c(), e = header_.e(), a = header_.a(), d = header_.d();
+  std::uint64_t last = 0;
+  for (std::uint32_t k = 0; k < header_.page_count; ++k) {
+    const auto octcode = get<std::uint64_t>(entry(k), 8);
+    require(k == 0 || k == c || k == e || k == a || k == d || last <= octcode, "order of keys");
+    if (k >= e && k < d) require(octcode == 0, "key of a field page or an attribute page");
+    last = octcode;
   }
 }
 
 Bytes SpecFile::entry(std::uint32_t number) const {
-  return Bytes(bytes_).subspan(760 + std::size_t{40} * number, 40);
+  return Bytes(bytes_).subspan(first_entry_ + std::size_t{24} * number, 24);
 }
 
 std::vector<std::byte> SpecFile::raw_page(std::uint32_t number) const {
-  const Bytes stored = Bytes(bytes_).subspan(get<std::uint64_t>(entry(number), 0),
-                                             get<std::uint32_t>(entry(number), 32));
-  const std::uint64_t check = get<std::uint64_t>(entry(number), 8);
-  require((hash64(stored, number) ^ content_id_) == check, "page hash");
-  const auto raw_bytes = get<std::uint32_t>(entry(number), 36);
-  if (get<std::uint32_t>(entry(number), 28) == 0) return {stored.begin(), stored.end()};
+  const Bytes stored =
+      Bytes(bytes_).subspan(offsets_[number], get<std::uint32_t>(entry(number), 16));
+  require(hash64(stored) == get<std::uint64_t>(entry(number), 0), "page hash");
+  const auto raw_bytes = get<std::uint32_t>(entry(number), 20);
+  if (raw_bytes == stored.size()) return {stored.begin(), stored.end()};
   std::vector<std::byte> raw(raw_bytes);
   const int length = LZ4_decompress_safe(
       reinterpret_cast<const char*>(stored.data()), reinterpret_cast<char*>(raw.data()),
@@ -227,16 +245,15 @@ std::vector<std::byte> SpecFile::raw_page(std::uint32_t number) const {
   return raw;
 }
 
-SpecPage SpecFile::page(std::uint32_t number) const {
-  SpecPage page = decode_spec_page(raw_page(number), number, header_);
-  require(page.octcode == get<std::uint64_t>(entry(number), 16) &&
-              page.ordinal == get<std::uint32_t>(entry(number), 24),
-          "the page's key");
-  return page;
+std::string SpecFile::extension(const std::string& name) const {
+  const auto found = extensions_.find(name);
+  return found == extensions_.end() ? std::string() : found->second;
 }
 
-std::uint32_t SpecFile::page_of(std::uint32_t link) const {
-  return (link & 0x7fffffff) / (header_.page_bytes / 64);
+SpecPage SpecFile::page(std::uint32_t number) const {
+  SpecPage page = decode_spec_page(raw_page(number), number, header_);
+  require(page.octcode == get<std::uint64_t>(entry(number), 8), "the page's octcode");
+  return page;
 }
 
 }  // namespace planetree::golden

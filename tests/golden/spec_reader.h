@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 #include <span>
+#include <string>
 #include <vector>
 
 /// A reader of .ptree files written from format-spec/v1/spec.md alone. It shares no code with the
@@ -15,6 +16,16 @@ namespace planetree::golden {
 
 using SpecVector = std::array<float, 3>;
 using SpecPoint = std::array<double, 3>;
+
+/// A link by page and record ("Links"): the record in bits 0 to 15, the page in bits 16 to 47, and
+/// bit 63 is set for a block.
+using SpecLink = std::uint64_t;
+constexpr SpecLink spec_link(bool is_block, std::uint32_t page, std::uint64_t record) {
+  return std::uint64_t{is_block} << 63 | std::uint64_t{page} << 16 | record;
+}
+constexpr std::uint32_t page_of_link(SpecLink link) {
+  return static_cast<std::uint32_t>(link >> 16 & 0xffffffff);
+}
 
 /// The fields of "Header" and "Model record" that the reader uses.
 struct SpecHeader {
@@ -28,7 +39,6 @@ struct SpecHeader {
   bool without_sides;               ///< there is no side layer
   std::uint64_t sample_triangle;
   std::int32_t scale_exponent;
-  std::uint32_t root_link;
   bool float64, wide_ids;
   unsigned height;
   std::uint64_t mask_cells;
@@ -39,7 +49,7 @@ struct SpecHeader {
   std::int64_t region_winding;
   std::uint64_t unbalanced_edges, cap_count, cap_node_count, cap_block_count;
   double cap_area;
-  std::uint32_t cap_pages, cap_root_link;
+  std::uint32_t cap_pages;
   unsigned cap_height;
   SpecPoint field_lower;
   double field_step, field_quantum;
@@ -47,6 +57,9 @@ struct SpecHeader {
   std::uint32_t field_pages, attribute_pages;
   unsigned attributes, value_kind;
   bool has_walls() const;
+  /// Links to the roots of the two trees.
+  SpecLink root_link() const { return spec_link(node_count == 0, 0, 0); }
+  SpecLink cap_root_link() const { return spec_link(cap_node_count == 0, c(), 0); }
   /// Whether the surface is not watertight.
   bool open() const { return cap_count > 0; }
   std::uint64_t field_points() const {
@@ -90,7 +103,7 @@ struct SpecChild {
   SpecBox box;
   SpecDisc disc;
   SpecMoments moments;  ///< of caps only, otherwise zero
-  std::uint32_t link;
+  SpecLink link;
 };
 
 struct SpecNode {
@@ -115,12 +128,12 @@ struct SpecBlock {
 struct SpecPage {
   std::uint64_t octcode;
   std::uint32_t ordinal;
-  std::map<std::uint32_t, SpecNode> nodes;
-  std::map<std::uint32_t, SpecBlock> blocks;
-  std::set<std::uint32_t> roots;
+  std::map<SpecLink, SpecNode> nodes;
+  std::map<SpecLink, SpecBlock> blocks;
+  std::set<SpecLink> roots;
 };
 
-/// An opened file, with header and page table checked.
+/// An opened file, with header and directory checked.
 class SpecFile {
  public:
   explicit SpecFile(std::vector<std::byte> bytes);
@@ -129,18 +142,21 @@ class SpecFile {
   /// The raw bytes of a page, checked and decompressed.
   std::vector<std::byte> raw_page(std::uint32_t number) const;
   SpecPage page(std::uint32_t number) const;
-  /// The page that a link leads to.
-  std::uint32_t page_of(std::uint32_t link) const;
+  /// The bytes of an extension, checked. Empty if the file has none of that name.
+  std::string extension(const std::string& name) const;
 
  private:
   std::span<const std::byte> choose_header() const;
-  void check_table(std::span<const std::byte> header) const;
+  void check_directory(std::span<const std::byte> header);
+  void find_pages(std::span<const std::byte> header);
   void check_keys() const;
   std::span<const std::byte> entry(std::uint32_t number) const;
 
   std::vector<std::byte> bytes_;
   SpecHeader header_{};
-  std::uint64_t content_id_ = 0;  // first 64 bits
+  std::size_t first_entry_ = 0;         // offset of the entry of page 0
+  std::vector<std::uint64_t> offsets_;  // of pages
+  std::map<std::string, std::string> extensions_;
 };
 
 /// "Bounds": decodes stored bounds.

@@ -42,7 +42,7 @@ bool is_same(const SpecPoint& found, const Vec3& expected, int scale_exponent) {
 TEST_P(SpecReader, FindsTheMeshExactly) {
   const SpecTree tree = open_tree(GetParam());
   const SpecHeader& header = tree.header();
-  std::vector<SpecTriangle> found = tree.triangles(header.root_link);
+  std::vector<SpecTriangle> found = tree.triangles(header.root_link());
   std::ranges::sort(found, {}, &SpecTriangle::id);
   const std::vector<MeshTriangle> expected = mesh_triangles(GetParam().mesh_path());
   ASSERT_EQ(found.size(), expected.size());
@@ -142,7 +142,7 @@ void read_all(const std::vector<std::byte>& bytes) {
 // A hash or check covers every byte. Only the header has a second copy.
 TEST(SpecReaderFile, DetectsEveryDamagedByteOutsideTheHeaders) {
   const std::vector<std::byte> whole = read_file(samples().front().ptree_path());
-  for (std::size_t at = 760; at + 760 < whole.size(); ++at) {
+  for (std::size_t at = 1024; at + 1024 < whole.size(); ++at) {
     std::vector<std::byte> bytes = whole;
     bytes[at] ^= std::byte{0x10};
     EXPECT_THROW(read_all(bytes), std::runtime_error) << at;
@@ -176,14 +176,25 @@ TEST(SpecLayers, DoNotChangeTheTree) {
   for (const Sample& sample : samples()) {
     const SpecTree whole(SpecFile(read_file(sample.ptree_path())));
     const SpecTree tree(file_with(sample, kDistanceLayer));
-    const auto expected = whole.triangles(whole.header().root_link);
-    const auto found = tree.triangles(tree.header().root_link);
+    const auto expected = whole.triangles(whole.header().root_link());
+    const auto found = tree.triangles(tree.header().root_link());
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
       EXPECT_EQ(found[i].id, expected[i].id);
       EXPECT_EQ(found[i].corners, expected[i].corners);
     }
   }
+}
+
+TEST(SpecMetadata, IsLinesOfTextBehindThePages) {
+  const SpecFile file(read_file(painted_sample().ptree_path()));
+  EXPECT_EQ(file.extension("metadata"),
+            "crs: EPSG:25832\ntitle: Drum \u00d8 2 mm\nunit: mm\nup: z\n");
+  const auto model = Model::open(painted_sample().ptree_path());
+  ASSERT_TRUE(model);
+  EXPECT_EQ(*model->metadata(), painted_sample().metadata);
+  EXPECT_EQ(SpecFile(read_file(sphere_sample().ptree_path())).extension("metadata"), "");
+  EXPECT_TRUE(Model::open(sphere_sample().ptree_path())->metadata()->empty());
 }
 
 }  // namespace

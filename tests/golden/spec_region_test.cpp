@@ -26,7 +26,7 @@ class SpecRegion : public testing::Test {
         tree_(file_),
         mask_(file_),
         whole_(SpecFile(read_file(boxes_sample().ptree_path()))),
-        all_(whole_.triangles(whole_.header().root_link)) {}
+        all_(whole_.triangles(whole_.header().root_link())) {}
 
   const SpecHeader& header() const { return file_.header(); }
 
@@ -91,7 +91,7 @@ TEST_F(SpecRegion, HasTheHeaderOfTheWhole) {
 
 TEST_F(SpecRegion, HoldsTheTrianglesThatTouchIt) {
   std::map<std::uint64_t, std::array<SpecPoint, 3>> kept;
-  for (const SpecTriangle& triangle : tree_.triangles(header().root_link))
+  for (const SpecTriangle& triangle : tree_.triangles(header().root_link()))
     kept[triangle.id] = triangle.corners;
   EXPECT_EQ(kept.size(), header().triangle_count);
   EXPECT_EQ(kept.begin()->first, header().sample_triangle);

@@ -51,7 +51,7 @@ SpecSides::SpecSides(const SpecFile& file) : header_(file.header()), tree_(file)
   all_.surface_count = all_.all.size();
   if (!header_.open()) return;
   const std::vector<SpecTriangle> caps =
-      caps_.emplace_back(file, SpecTree::Of::kCaps).triangles(header_.cap_root_link);
+      caps_.emplace_back(file, SpecTree::Of::kCaps).triangles(header_.cap_root_link());
   all_.all.insert(all_.all.end(), caps.begin(), caps.end());
 }
 
@@ -168,7 +168,7 @@ SpecSides::Triangles SpecSides::of_blocks(std::span<const SpecListedBlock> block
   std::vector<SpecTriangle> caps;
   for (const SpecListedBlock& listed : blocks) {
     if ((listed.octants >> octant & 1) == 0) continue;
-    const bool of_caps = (listed.link & 0x7fffffff) / (header_.page_bytes / 64) >= header_.c();
+    const bool of_caps = page_of_link(listed.link) >= header_.c();
     const SpecBlock& block = (of_caps ? caps_.at(0) : tree_).block(listed.link);
     std::vector<SpecTriangle>& into = of_caps ? caps : found.all;
     into.insert(into.end(), block.triangles.begin(), block.triangles.end());
@@ -182,14 +182,14 @@ SpecSides::Triangles SpecSides::of_blocks(std::span<const SpecListedBlock> block
 SpecShare SpecSides::share(const SpecPoint& p, double k) const {
   struct Open {
     double error, value;
-    std::uint32_t link;
+    SpecLink link;
     bool operator<(const Open& other) const { return error < other.error; }
   };
   double w = k, e = 0;
   std::size_t unknown = 1;
   bool on_cap = false;
   std::priority_queue<Open> heap;
-  heap.push({kInfinity, 0, header_.cap_root_link});
+  heap.push({kInfinity, 0, header_.cap_root_link()});
   while (!heap.empty() && !(unknown == 0 && (std::fabs(w) - e > 0.5 || std::fabs(w) + e < 0.5))) {
     const Open open = heap.top();
     heap.pop();

@@ -67,25 +67,25 @@ SpecCounts SpecTree::counts() const {
   return {header_.cap_count, header_.cap_node_count, header_.cap_block_count, header_.cap_height};
 }
 
-std::uint32_t SpecTree::page_of(std::uint32_t link) const {
-  return (link & 0x7fffffff) / (header_.page_bytes / 64) - (of_caps_ ? header_.c() : 0);
+std::uint32_t SpecTree::page_of(SpecLink link) const {
+  return page_of_link(link) - (of_caps_ ? header_.c() : 0);
 }
 
-const SpecNode& SpecTree::node(std::uint32_t link) const {
+const SpecNode& SpecTree::node(SpecLink link) const {
   return pages_.at(page_of(link)).nodes.at(link);
 }
 
-const SpecBlock& SpecTree::block(std::uint32_t link) const {
+const SpecBlock& SpecTree::block(SpecLink link) const {
   return pages_.at(page_of(link)).blocks.at(link);
 }
 
-std::vector<SpecTriangle> SpecTree::triangles(std::uint32_t link) const {
+std::vector<SpecTriangle> SpecTree::triangles(SpecLink link) const {
   std::vector<SpecTriangle> found;
   collect(link, found);
   return found;
 }
 
-void SpecTree::collect(std::uint32_t link, std::vector<SpecTriangle>& found) const {
+void SpecTree::collect(SpecLink link, std::vector<SpecTriangle>& found) const {
   if (is_block(link)) {
     const std::vector<SpecTriangle>& here = block(link).triangles;
     found.insert(found.end(), here.begin(), here.end());
@@ -102,7 +102,7 @@ double SpecTree::child_bound(const SpecChild& child, const SpecPoint& from_centr
 }
 
 SpecNearest SpecTree::nearest(const SpecPoint& point) const {
-  using Entry = std::pair<double, std::uint32_t>;
+  using Entry = std::pair<double, SpecLink>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> heap;
   SpecNearest best{~std::uint64_t{0}, std::numeric_limits<double>::infinity()};
   heap.emplace(0.0, root_link());

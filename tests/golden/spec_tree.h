@@ -28,24 +28,24 @@ class SpecTree {
 
   const SpecHeader& header() const { return header_; }
   SpecCounts counts() const;
-  std::uint32_t root_link() const { return of_caps_ ? header_.cap_root_link : header_.root_link; }
+  SpecLink root_link() const { return of_caps_ ? header_.cap_root_link() : header_.root_link(); }
   const std::vector<SpecPage>& pages() const { return pages_; }
 
   /// The record that a link leads to. Throws if there is none.
-  const SpecNode& node(std::uint32_t link) const;
-  const SpecBlock& block(std::uint32_t link) const;
+  const SpecNode& node(SpecLink link) const;
+  const SpecBlock& block(SpecLink link) const;
   /// The page that a link leads to, counted from the first one of the tree.
-  std::uint32_t page_of(std::uint32_t link) const;
-  static bool is_block(std::uint32_t link) { return link >> 31 != 0; }
+  std::uint32_t page_of(SpecLink link) const;
+  static bool is_block(SpecLink link) { return link >> 63 != 0; }
 
   /// All triangles below a link, in the order of the tree.
-  std::vector<SpecTriangle> triangles(std::uint32_t link) const;
+  std::vector<SpecTriangle> triangles(SpecLink link) const;
 
   /// nearest() of "Nearest triangle". `point` and the distance are in the model frame.
   SpecNearest nearest(const SpecPoint& point) const;
 
  private:
-  void collect(std::uint32_t link, std::vector<SpecTriangle>& found) const;
+  void collect(SpecLink link, std::vector<SpecTriangle>& found) const;
   double child_bound(const SpecChild& child, const SpecPoint& from_centre) const;
 
   SpecHeader header_;

@@ -45,7 +45,7 @@ TEST(Underflow, JoinsPositiveAndNegativeZero) {
       triangles += block.triangles.size();
     }
   EXPECT_EQ(triangles, 100u);
-  EXPECT_EQ(tree.triangles(tree.header().root_link).size(), 100u);
+  EXPECT_EQ(tree.triangles(tree.header().root_link()).size(), 100u);
 }
 
 }  // namespace

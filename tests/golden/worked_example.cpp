@@ -109,14 +109,13 @@ void list_sequences(std::span<const std::byte> file, Listing& listing, std::size
 
 std::string list_file(std::span<const std::byte> file) {
   Listing listing(file);
-  const FormatStruct& entry = format_struct("Page table");
-  const auto page_count = get<std::uint32_t>(file, 64);
+  const FormatStruct& entry = format_struct("Directory");
+  const auto page_count = get<std::uint32_t>(file, 104);
   listing.record(format_struct("Header"));
   for (std::uint32_t page = 0; page < page_count; ++page) listing.record(entry);
   for (std::uint32_t page = 0; page < page_count; ++page) {
-    const std::size_t at = 760 + std::size_t{40} * page;
-    const std::size_t end = get<std::uint64_t>(file, at) + get<std::uint32_t>(file, at + 32);
-    list_sequences(file, listing, end);
+    const std::size_t entry_at = 1024 + std::size_t{24} * page;
+    list_sequences(file, listing, listing.at() + get<std::uint32_t>(file, entry_at + 16));
   }
   listing.record(format_struct("Header"));
   return listing.text();
@@ -126,8 +125,8 @@ std::string list_page(std::span<const std::byte> raw) {
   Listing listing(raw);
   listing.record(format_struct("Distance page"));
   const std::size_t blocks = get<std::uint16_t>(raw, 18);
-  const std::size_t vertices = get<std::uint16_t>(raw, 28);
-  const std::size_t triangles = get<std::uint16_t>(raw, 32);
+  const std::size_t vertices = get<std::uint16_t>(raw, 26);
+  const std::size_t triangles = get<std::uint16_t>(raw, 30);
   const auto sum_from_here = [&](auto part) {
     std::size_t sum = 0;
     for (std::size_t i = 0; i < blocks; ++i) sum += part(i);
@@ -142,7 +141,7 @@ std::string list_page(std::span<const std::byte> raw) {
   listing.field(blocks, "triangle counts");
   listing.field(blocks, "vertex counts");
   listing.field(blocks, "new counts");
-  listing.field(std::size_t{2} * get<std::uint16_t>(raw, 30), "vertex refs");
+  listing.field(std::size_t{2} * get<std::uint16_t>(raw, 28), "vertex refs");
   listing.field(corners, "corners");
   for (const char* byte : {"lowest", "second", "third", "highest"})
     listing.field(3 * vertices, std::string("vertices, ") + byte + " bytes");

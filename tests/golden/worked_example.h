@@ -8,7 +8,7 @@
 /// meaning.
 namespace planetree::golden {
 
-/// Lists a whole file, with its pages as LZ4 sequences.
+/// Lists a whole file of at most 512 pages without extensions, with its pages as LZ4 sequences.
 std::string list_file(std::span<const std::byte> file);
 
 /// Lists the raw bytes of a page of blocks with f32 vertices and 4-byte indices.

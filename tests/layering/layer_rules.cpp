@@ -36,6 +36,7 @@ bool is_allowed_by_row(const Layer& layer, std::string_view include) {
   const bool is_low = layer.folder.starts_with("storage/") || is_cache;
   if (include.starts_with("planetree/"))
     return !is_low || include == "planetree/error.h" ||
+           (layer.folder == "storage/file" && include == "planetree/metadata.h") ||
            (is_cache && include == "planetree/eviction_policy.h");
   const std::string_view folder = folder_of(include);
   if (is_ours(include)) return folder == layer.folder || contains(layer.includes, folder);

@@ -31,6 +31,18 @@ class Models(ModelTestCase):
         self.model.distance(self.points(10))
         self.assertGreater(self.model.stats["pages_read"], 0)
 
+    def test_say_what_the_file_says_of_them(self):
+        path = self.folder / "told.ptree"
+        planetree.build(
+            (self.vertices, self.faces), path, metadata={"unit": "mm", "title": "K\u00f6nig"}
+        )
+        with planetree.open(path) as model:
+            told = model.metadata
+        self.assertEqual(told.pop("generator").split()[0], "planetree")
+        self.assertEqual(told, {"unit": "mm", "title": "K\u00f6nig"})
+        with self.assertRaises(planetree.Error):
+            planetree.build((self.vertices, self.faces), path, metadata={"Unit": "mm"}, replace=True)
+
     def test_close(self):
         with planetree.open(self.path) as model:
             model.distance([0, 0, 0])

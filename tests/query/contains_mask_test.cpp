@@ -6,6 +6,7 @@
 
 #include "planetree/probe.h"
 #include "query/answer/side.h"
+#include "query/model_state.h"
 #include "query/serve/page_accessor.h"
 #include "tests/octree/support/sample_mask.h"
 #include "tests/query/sample_model.h"
@@ -137,8 +138,8 @@ class DamagedMask : public testing::Test {
   // Changes one byte, as a failing disk would; a second call restores it.
   void damage(std::uint32_t mask_page) {
     FileImage image(storage::read_bytes(sample_.path()));
-    const storage::PageEntry entry = image.entry(sample_.page_count() + mask_page);
-    image.bytes()[entry.offset + entry.stored_bytes / 2] ^= std::byte{0x10};
+    const std::span<std::byte> stored = image.stored(sample_.page_count() + mask_page);
+    stored[stored.size() / 2] ^= std::byte{0x10};
     storage::write_bytes(sample_.path(), image.bytes());
   }
   void expect_same(const std::vector<Containment>& answers) const {

@@ -125,8 +125,7 @@ TEST_F(Contains, IsDegradedWhenTheWorkEnds) {
 // Where one exit segment needs a lost page, another is used.
 TEST_F(Contains, FindsSidesWithoutALostPage) {
   storage::FileImage image(storage::read_bytes(sample_.path()));
-  const storage::PageEntry entry = image.entry(sample_.page_count() - 2);
-  image.bytes()[entry.offset] ^= std::byte{1};
+  image.stored(sample_.page_count() - 2)[0] ^= std::byte{1};
   storage::write_bytes(sample_.path(), image.bytes());
   const Model model = sample_.open();
   Probe probe = make_probe(model);
@@ -231,8 +230,7 @@ TEST_F(ContainsOpen, IsDegradedWhenTheWorkEnds) {
 // From afar, moments stand in for the content of a lost page.
 TEST_F(ContainsOpen, IsRightWhereALostPageCannotMatter) {
   storage::FileImage image(storage::read_bytes(sample_.path()));
-  const storage::PageEntry entry = image.entry(sample_.page_count() / 2);
-  image.bytes()[entry.offset] ^= std::byte{1};
+  image.stored(sample_.page_count() / 2)[0] ^= std::byte{1};
   storage::write_bytes(sample_.path(), image.bytes());
   const Model model = sample_.open();
   Probe probe = make_probe(model);
@@ -309,7 +307,7 @@ TEST_F(InwardBowl, NormalsOnTheSurfaceAreNotExactWithoutAPageForTheirSign) {
   const std::uint32_t pages = turned_.open().info().pages;
   for (std::uint32_t page = 1; page < pages; ++page) {
     storage::FileImage image(bytes);
-    image.bytes()[image.entry(page).offset] ^= std::byte{1};
+    image.stored(page)[0] ^= std::byte{1};
     storage::write_bytes(turned_.path(), image.bytes());
     const Model model = turned_.open();
     Probe probe = make_probe(model);

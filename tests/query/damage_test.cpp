@@ -17,12 +17,12 @@ class DamagedWhileOpen : public testing::Test {
 
   // Changes one byte of the file in place, as a failing disk would.
   void damage_page(std::uint32_t page) {
-    const storage::FileImage image(storage::read_bytes(sample_.path()));
-    const storage::PageEntry entry = image.entry(page);
+    storage::FileImage image(storage::read_bytes(sample_.path()));
+    const std::size_t middle = image.offset_of_page(page) + image.entry(page).stored_bytes / 2;
     std::fstream file(sample_.path(), std::ios::in | std::ios::out | std::ios::binary);
-    file.seekg(static_cast<std::streamoff>(entry.offset + entry.stored_bytes / 2));
+    file.seekg(static_cast<std::streamoff>(middle));
     const int byte = file.get();
-    file.seekp(static_cast<std::streamoff>(entry.offset + entry.stored_bytes / 2));
+    file.seekp(static_cast<std::streamoff>(middle));
     file.put(static_cast<char>(byte ^ 0x10));
   }
 

@@ -161,9 +161,9 @@ TEST(Model, InfoDescribesTheFile) {
   EXPECT_EQ(info.pages, sample.page_count());
   EXPECT_EQ(info.page_bytes, 4096u);
   EXPECT_EQ(info.file_bytes, std::filesystem::file_size(sample.path()));
-  EXPECT_EQ(info.section_bytes.headers + info.section_bytes.page_table +
-                info.section_bytes.distance_pages,
-            info.file_bytes);
+  EXPECT_EQ(
+      info.section_bytes.headers + info.section_bytes.directory + info.section_bytes.distance_pages,
+      info.file_bytes);
   EXPECT_NE(info.content_id[0] | info.content_id[1], 0u);
   EXPECT_TRUE(SampleModel(scattered(5, 1)).open().info().float64);
 }

@@ -41,7 +41,6 @@ storage::ModelRecord describe(const octree::SampleTree& sample) {
   model.stray_edge = sample.mesh.frame.stray_edge;
   model.sample_triangle = info.sample_triangle;
   model.scale_exponent = sample.mesh.frame.scale_exponent;
-  model.root_link = info.root_link;
   model.vertex_kind =
       sample.shape.float64 ? storage::VertexKind::kFloat64 : storage::VertexKind::kFloat32;
   model.triangle_id_bytes = sample.shape.wide_ids ? 8 : 4;
@@ -50,10 +49,9 @@ storage::ModelRecord describe(const octree::SampleTree& sample) {
   return model;
 }
 
-void append(storage::PageWriter& writer, std::uint64_t octcode, std::uint32_t ordinal,
-            const std::vector<std::byte>& raw) {
-  const auto appended = writer.append(octcode, ordinal, static_cast<std::uint32_t>(raw.size()),
-                                      storage::compress_page(raw));
+void append(storage::PageWriter& writer, std::uint64_t octcode, const std::vector<std::byte>& raw) {
+  const auto appended =
+      writer.append(octcode, static_cast<std::uint32_t>(raw.size()), storage::compress_page(raw));
   if (!appended) give_up(appended.error());
 }
 
@@ -86,7 +84,7 @@ void append_caps(const octree::CapTree& caps, storage::PageWriter& writer,
   for (std::uint32_t page = 0; page < pages.size(); ++page) {
     const auto encoded = pages.encode(pages.first() + page);
     if (!encoded) give_up(encoded.error());
-    append(writer, encoded->octcode, encoded->ordinal, encoded->bytes);
+    append(writer, encoded->octcode, encoded->bytes);
   }
 }
 
@@ -104,18 +102,17 @@ void write(const octree::SampleTree& sample, bool masked, const std::filesystem:
     mask_plan = octree::plan_mask(mask, sample.plan.page_bytes);
   }
   const auto mask_pages = static_cast<std::uint32_t>(mask_plan.pages.size());
-  auto writer = storage::PageWriter::create(path, page_count + mask_pages, false);
+  auto writer = storage::PageWriter::create(path, page_count + mask_pages, {}, false);
   if (!writer) give_up(writer.error());
   for (std::uint32_t page = 0; page < tree_pages; ++page)
-    append(*writer, sample.plan.pages[page].octcode, sample.plan.pages[page].ordinal,
-           pages.raw(page));
+    append(*writer, sample.plan.pages[page].octcode, pages.raw(page));
   storage::ModelRecord model = describe(sample);
   append_caps(caps, *writer, model);
   if (masked) {
     writer->begin_mask();
     const octree::MaskEncoder encoder(mask, mask_plan, page_count, sample.shape.float64);
     for (std::uint32_t page = 0; page < mask_pages; ++page)
-      append(*writer, mask_plan.pages[page].octcode, 0, encoder.encode(page).bytes);
+      append(*writer, mask_plan.pages[page].octcode, encoder.encode(page).bytes);
     model.mask_cell_count = mask.entries.size();
     model.mask_page_count = mask_pages;
     model.mask_levels = static_cast<std::uint8_t>(mask.levels);

@@ -235,6 +235,8 @@ TEST_F(StuckDisk, PagesInTheSystemsMemoryAreReadMeanwhile) {
 TEST_F(StuckDisk, PageThatSeveralQueriesWaitForIsReadOnce) {
   const Model model = open(std::uint64_t{64} << 20);
   const std::uint64_t misses = model.stats().page_misses;
+  // Opening has read the directory too.
+  const std::uint64_t others = static_cast<std::uint64_t>(disk_.reads) - model.stats().pages_read;
   disk_.stalls = true;
   std::vector<std::thread> threads;
   std::atomic<int> exact{0};
@@ -248,7 +250,7 @@ TEST_F(StuckDisk, PageThatSeveralQueriesWaitForIsReadOnce) {
   for (std::thread& thread : threads) thread.join();
   EXPECT_TRUE(all_wait);
   EXPECT_EQ(exact, 3);
-  EXPECT_EQ(model.stats().pages_read, static_cast<std::uint64_t>(disk_.reads));
+  EXPECT_EQ(model.stats().pages_read + others, static_cast<std::uint64_t>(disk_.reads));
 }
 
 TEST_F(StuckDisk, UnreadablePagesDegradeAnswersForGood) {

@@ -1,6 +1,8 @@
 #include "tools/check/file_check.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <optional>
 
 #include "tools/check/attribute_check.h"
@@ -27,6 +29,11 @@ void check_model(const storage::ModelRecord& model, IssueList& issues) {
   if (names_one != (model.skipped_count > 0) || (names_one && model.first_skipped >= indices))
     wrong("the index of the first skipped triangle does not fit the number of skipped ones");
   if (model.sample_triangle >= indices) wrong("the sample triangle's index is out of range");
+  const auto listed =
+      std::min<std::uint64_t>(model.unbalanced_edge_count, std::size(model.unbalanced_edge));
+  for (std::size_t i = 0; i < listed; ++i)
+    if (model.unbalanced_edge[i].triangle >= indices)
+      wrong("the index of a triangle with an unbalanced edge is out of range");
 }
 
 }  // namespace

@@ -9,11 +9,17 @@
 #include <cstring>
 
 #include "query/file/page_decoding.h"
+#include "query/file/tree_header.h"
 #include "storage/file/checksum.h"
+#include "storage/file/directory_shape.h"
+#include "storage/file/extension.h"
 #include "storage/file/header_check.h"
 #include "storage/file/header_choice.h"
+#include "storage/file/header_faults.h"
+#include "storage/file/metadata.h"
 #include "storage/file/page_codec.h"
 #include "storage/system/file_error.h"
+#include "tools/check/directory_survey.h"
 
 namespace planetree::tools {
 namespace {
@@ -37,7 +43,7 @@ Issue page_issue(IssueCode code, std::uint32_t page, std::uint64_t offset, const
 
 /// Whether the header suffices to read pages, even if other fields are wrong.
 bool can_serve(const storage::FileHeader& header, std::uint64_t actual_bytes) {
-  return header.version == storage::kFormatVersion &&
+  return storage::is_known_version(header.version) &&
          (header.incompatible_features & ~storage::kKnownIncompatibleFeatures) == 0 &&
          std::has_single_bit(header.page_bytes) && header.page_bytes >= storage::kMinPageBytes &&
          header.page_bytes <= storage::kMaxPageBytes && actual_bytes >= storage::kHeaderBytes;
@@ -88,26 +94,98 @@ Result<void> FileParts::load() {
     const IssueCode code = header_issue(checked.error().code, IssueCode::kHeaderField);
     issues_.push_back(Issue::from(code, checked.error()));
   }
-  has_header_ = can_serve(header_, actual_bytes_);
-  if (!has_header_) return {};
+  if (!can_serve(header_, actual_bytes_)) return {};
+  if (const auto checked = query::check_page_limits(header_); !checked) {
+    issues_.push_back(Issue::from(IssueCode::kFormatUnsupported, checked.error()));
+    return {};
+  }
+  has_header_ = true;
   frame_.resize(header_.page_bytes);
-  return load_table();
+  if (const auto loaded = load_extensions(); !loaded) return loaded;
+  return load_directory();
 }
 
-Result<void> FileParts::load_table() {
-  const std::uint64_t end = storage::table_end(header_.page_count);
-  if (end > actual_bytes_) {
-    issues_.push_back({IssueCode::kTable, Error::kNowhere, actual_bytes_,
-                       "the file ends before its page table does; restore the file from a copy or "
+Result<void> FileParts::load_extensions() {
+  if (header_.extension_count > storage::kMaxExtensions ||
+      storage::directory_start(header_.extension_count) > actual_bytes_)
+    return {};  // check_header() has reported it
+  extensions_.resize(header_.extension_count);
+  const auto records = std::as_writable_bytes(std::span(extensions_));
+  if (const auto read = read_at(storage::kHeaderBytes, records); !read) return read;
+  const auto checked = storage::check_extensions(header_, extensions_);
+  if (checked) {
+    for (const storage::ExtensionRecord& record : extensions_)
+      if (const auto loaded = load_extension(record); !loaded) return loaded;
+    return {};
+  }
+  const IssueCode code = header_issue(checked.error().code, IssueCode::kExtension);
+  issues_.push_back(Issue::from(code, checked.error()));
+  extensions_.clear();
+  return {};
+}
+
+Result<void> FileParts::load_directory() {
+  if (header_.extension_count > storage::kMaxExtensions ||
+      storage::pages_start(header_) > actual_bytes_) {
+    issues_.push_back({IssueCode::kDirectory, Error::kNowhere, actual_bytes_,
+                       "the file ends before its directory does; restore the file from a copy or "
                        "build it again"});
     return {};
   }
-  entries_.resize(header_.page_count);
-  const auto table = std::as_writable_bytes(std::span(entries_));
-  if (const auto read = read_at(storage::kHeaderBytes, table); !read) return read;
-  // check_header() has checked the file's length. The table of a truncated file may be whole.
-  if (const auto checked = storage::check_table(header_, entries_); !checked)
-    issues_.push_back(Issue::from(IssueCode::kTable, checked.error()));
+  // check_header() has checked the file's length. The directory of a truncated file may be whole.
+  DirectorySurvey survey(file_, header_);
+  if (const auto read = survey.run(); !read) return read;
+  entries_ = std::move(survey.entries);
+  issues_.insert(issues_.end(), survey.issues.begin(), survey.issues.end());
+  check_lengths();
+  return {};
+}
+
+/// Checks what the header states of the lengths of pages. Model::open() does not, because it does
+/// not read the whole directory of a large file.
+void FileParts::check_lengths() {
+  if (!issues_.empty()) return;
+  std::uint64_t stored[storage::kPageKinds] = {};
+  std::uint32_t max_raw = 0, max_stored = 0;
+  for (std::uint32_t page = 0; page < page_count(); ++page) {
+    stored[static_cast<unsigned>(header_.kind_of(page))] += entries_[page].stored_bytes;
+    max_raw = std::max(max_raw, entries_[page].raw_bytes);
+    max_stored = std::max(max_stored, entries_[page].stored_bytes);
+  }
+  const bool is_right = std::equal(std::begin(stored), std::end(stored), header_.stored_bytes) &&
+                        max_raw == header_.max_raw_bytes && max_stored == header_.max_stored_bytes;
+  if (!is_right)
+    issues_.push_back({IssueCode::kHeaderField, Error::kNowhere,
+                       offsetof(storage::FileHeader, stored_bytes),
+                       "the lengths of pages that the header states are not those of the "
+                       "directory; build the file again"});
+}
+
+/// Checks the hash of an extension, and reads the one that this program knows.
+Result<void> FileParts::load_extension(const storage::ExtensionRecord& record) {
+  constexpr std::size_t kPartBytes = std::size_t{1} << 20;
+  storage::Hasher hasher;
+  std::vector<std::byte> part;
+  for (std::uint64_t at = 0; at < record.bytes; at += part.size()) {
+    part.resize(static_cast<std::size_t>(std::min<std::uint64_t>(kPartBytes, record.bytes - at)));
+    // That a file is too short is an issue of its length.
+    if (const auto read = read_at(record.offset + at, part); !read)
+      return read.error().code == ErrorCode::kTruncated ? Result<void>{} : read;
+    hasher.add(part);
+  }
+  const bool is_metadata = storage::name_of(record) == storage::kMetadataName;
+  if (hasher.value64() != record.check) {
+    issues_.push_back({IssueCode::kExtension, Error::kNowhere, record.offset,
+                       "the hash of an extension is wrong; restore the file from a copy or build "
+                       "it again"});
+  } else if (is_metadata) {
+    if (record.bytes > kPartBytes) part.resize(kPartBytes);  // too long in any case
+    auto metadata = storage::parse_metadata(part);
+    if (metadata)
+      metadata_ = *std::move(metadata);
+    else
+      issues_.push_back(Issue::from(IssueCode::kExtension, metadata.error()));
+  }
   return {};
 }
 
@@ -120,10 +198,8 @@ Result<void> FileParts::read_at(std::uint64_t offset, std::span<std::byte> out) 
 const char* FileParts::fault_of(const storage::PageEntry& entry) const {
   if (entry.offset > actual_bytes_ || entry.stored_bytes > actual_bytes_ - entry.offset)
     return "the page lies beyond the file's end; restore the file from a copy or build it again";
-  if (entry.codec != storage::Codec::kStored && entry.codec != storage::Codec::kLz4)
-    return "the page's codec is unknown; restore the file from a copy or build it again";
   if (entry.raw_bytes > storage::kMaxRawBytes ||
-      !storage::lengths_are_plausible(entry.codec, entry.stored_bytes, entry.raw_bytes))
+      !storage::lengths_are_plausible(entry.codec(), entry.stored_bytes, entry.raw_bytes))
     return "the page's stored length cannot give its raw length; restore the file from a copy or "
            "build it again";
   return nullptr;
@@ -134,7 +210,7 @@ std::optional<Issue> FileParts::read_page(std::uint32_t page) {
   page_ = page;
   raw_.clear();
   if (const char* fault = fault_of(entry))
-    return page_issue(IssueCode::kPageEntry, page, storage::table_end(page), fault);
+    return page_issue(IssueCode::kPageEntry, page, Error::kNowhere, fault);
   stored_.resize(entry.stored_bytes);
   if (const auto read = read_at(entry.offset, stored_); !read) {
     Issue issue = Issue::from(IssueCode::kPageRead, read.error());
@@ -142,12 +218,12 @@ std::optional<Issue> FileParts::read_page(std::uint32_t page) {
     issue.offset = entry.offset;
     return issue;
   }
-  if ((storage::page_hash(page, stored_) ^ header_.content_id[0]) != entry.check)
+  if (storage::hash64(stored_) != entry.check)
     return page_issue(IssueCode::kPageChecksum, page, entry.offset,
                       "the page's checksum is wrong; restore the file from a copy or build it "
                       "again");
   raw_.resize(entry.raw_bytes);
-  if (const auto decoded = storage::decompress_page(entry.codec, stored_, raw_); !decoded) {
+  if (const auto decoded = storage::decompress_page(entry.codec(), stored_, raw_); !decoded) {
     raw_.clear();
     return page_issue(IssueCode::kPageCodec, page, entry.offset, decoded.error().text);
   }

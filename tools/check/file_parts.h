@@ -13,6 +13,7 @@
 #include "octree/page/mask_streams.h"
 #include "octree/page/page_streams.h"
 #include "planetree/error.h"
+#include "planetree/metadata.h"
 #include "query/file/page_decoding.h"
 #include "storage/file/file_layout.h"
 #include "storage/system/file_calls.h"
@@ -29,7 +30,7 @@ namespace planetree::tools {
 /// threads  one at a time, because the page read last is kept here
 class FileParts {
  public:
-  /// Opens a file and reads its headers and page table.
+  /// Opens a file and reads its headers, its directory and its extensions.
   ///
   /// errors  kNotFound, kPermission, kReadFailed, kNoMemory: the file cannot be opened or
   ///         read. Everything else becomes an issue.
@@ -43,9 +44,13 @@ class FileParts {
 
   /// The header. Null if neither header is whole or this program does not know the format version.
   const storage::FileHeader* header() const { return has_header_ ? &header_ : nullptr; }
-  /// The page table, unchecked. Empty without a header or if the file ends within the table.
+  /// Where the pages are, unchecked. Empty without a header or if the file ends within the
+  /// directory.
   std::span<const storage::PageEntry> entries() const { return entries_; }
   std::uint32_t page_count() const { return static_cast<std::uint32_t>(entries_.size()); }
+  std::span<const storage::ExtensionRecord> extensions() const { return extensions_; }
+  /// What the file says of the model. Empty if it says nothing or that is damaged.
+  const Metadata& metadata() const { return metadata_; }
   /// Number of the first mask page.
   std::uint32_t first_mask_page() const {
     return std::min(header_.first_mask_page(), page_count());
@@ -70,6 +75,11 @@ class FileParts {
   octree::BlockShape shape() const {
     const bool caps = page_ >= first_cap_page() && page_ < first_field_page();
     return caps ? query::cap_shape(header_.model) : query::block_shape(header_.model);
+  }
+
+  /// Link to the root of the surface's tree.
+  std::uint32_t root_link() const {
+    return octree::root_link_of(header_.page_bytes, 0, header_.model.node_count);
   }
 
   /// Reads a page's stored bytes, checks the hash and decompresses them. Empty if sound.
@@ -105,7 +115,10 @@ class FileParts {
  private:
   FileParts() = default;
   Result<void> load();
-  Result<void> load_table();
+  Result<void> load_extensions();
+  Result<void> load_extension(const storage::ExtensionRecord& record);
+  Result<void> load_directory();
+  void check_lengths();
   Result<void> read_at(std::uint64_t offset, std::span<std::byte> out) const;
   const char* fault_of(const storage::PageEntry& entry) const;
 
@@ -114,6 +127,8 @@ class FileParts {
   std::uint64_t actual_bytes_ = 0;
   bool has_header_ = false;
   storage::FileHeader header_{};
+  std::vector<storage::ExtensionRecord> extensions_;
+  Metadata metadata_;
   std::vector<storage::PageEntry> entries_;
   std::vector<Issue> issues_;
 

@@ -14,7 +14,7 @@ constexpr std::array<std::string_view, kIssueCodeCount> kNames = {"NOT_PLANETREE
                                                                   "HEADER_LOST",
                                                                   "HEADER_COPY",
                                                                   "HEADER_FIELD",
-                                                                  "TABLE",
+                                                                  "DIRECTORY",
                                                                   "PAGE_ENTRY",
                                                                   "PAGE_READ",
                                                                   "PAGE_CHECKSUM",
@@ -45,7 +45,8 @@ constexpr std::array<std::string_view, kIssueCodeCount> kNames = {"NOT_PLANETREE
                                                                   "REGION",
                                                                   "CAPS",
                                                                   "FIELD",
-                                                                  "ATTRIBUTES"};
+                                                                  "ATTRIBUTES",
+                                                                  "EXTENSION"};
 static_assert(!kNames.back().empty());
 
 }  // namespace

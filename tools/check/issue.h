@@ -18,7 +18,7 @@ enum class IssueCode : std::uint8_t {
   kHeaderLost,
   kHeaderCopy,
   kHeaderField,
-  kTable,
+  kDirectory,
   kPageEntry,
   kPageRead,
   kPageChecksum,
@@ -50,8 +50,9 @@ enum class IssueCode : std::uint8_t {
   kCaps,
   kField,
   kAttributes,
+  kExtension,
 };
-inline constexpr std::size_t kIssueCodeCount = static_cast<std::size_t>(IssueCode::kAttributes) + 1;
+inline constexpr std::size_t kIssueCodeCount = static_cast<std::size_t>(IssueCode::kExtension) + 1;
 
 /// The code's name in reports, such as "PAGE_CHECKSUM".
 [[nodiscard]] std::string_view issue_name(IssueCode code);

@@ -148,7 +148,7 @@ void MaskProof::check_list(const GreyCell& grey) {
     const std::uint32_t link = grey.blocks.links[i];
     const octree::LinkFormat links(model_->geometry().tree.page_bytes);
     // An unreadable page is reported elsewhere.
-    if (const std::byte* record = records.find(link, work))
+    if (const std::byte* record = records.find_numbered(link, work))
       outside = outside ||
                 !is_within_slab(grey, octree::BlockView(record, model_->geometry().tree.shape));
     else if (accessor.peek(links.page(link)) != nullptr)

@@ -21,12 +21,14 @@ class MaskWalk::Page {
   const octree::MaskHeader& header() const {
     return *reinterpret_cast<const octree::MaskHeader*>(frame_);
   }
-  std::uint32_t first_slot() const { return header().first_record_slot; }
-  std::uint32_t end_slot() const { return first_slot() + header().record_count; }
+  std::uint32_t record_count() const { return header().record_count; }
   const std::byte* slot(std::uint32_t at) const { return frame_ + at * octree::kMaskSlotBytes; }
-  bool is_node(std::uint32_t at) const { return octree::is_mask_node(frame_, at); }
-  /// The cell of the record in a slot, once known.
-  std::optional<GridCell>& cell(std::uint32_t at) { return cells_[at - first_slot()]; }
+  const std::byte* record(std::uint32_t at) const { return slot(header().first_record_slot + at); }
+  bool is_node(std::uint32_t at) const {
+    return octree::is_mask_node(frame_, header().first_record_slot + at);
+  }
+  /// The cell of a record, once known.
+  std::optional<GridCell>& cell(std::uint32_t at) { return cells_[at]; }
 
   const std::uint32_t number;
 
@@ -49,7 +51,7 @@ void MaskWalk::skip_page(std::uint32_t page) {
 void MaskWalk::add(std::uint32_t number) {
   Page page(parts_.frame_bytes(), number);
   if (number == parts_.first_mask_page()) {
-    page.cell(page.first_slot()) = GridCell{};
+    page.cell(0) = GridCell{};
     if (page.header().root_count != 1)
       report_({IssueCode::kSubtreeUnlinked, number, Error::kNowhere,
                "the mask's first page does not have exactly one root"});
@@ -58,64 +60,65 @@ void MaskWalk::add(std::uint32_t number) {
   }
   visit_records(page);
   pending_.finish_page(number - parts_.first_mask_page(), [&](const auto& target, const auto&) {
-    report_({IssueCode::kLinkTarget, number, Error::kNowhere,
-             fmt::format("a link leads to slot {} of the mask, where no family with the kinds that "
-                         "its node states begins",
-                         target.slot)});
+    report_(
+        {IssueCode::kLinkTarget, number, Error::kNowhere,
+         fmt::format("a link leads to record {} of the mask page, where no family with the kinds "
+                     "that its node states begins",
+                     target.record)});
   });
 }
 
 // Takes the families that earlier pages link to. They lie one after the other at the front.
 void MaskWalk::take_roots(Page& page) {
   const std::uint32_t within = page.number - parts_.first_mask_page();
-  const std::uint32_t end = page.first_slot() + page.header().root_count;
-  for (std::uint32_t slot = page.first_slot(); slot < end;) {
-    const std::optional<FamilyParent> parent = pending_.take({within, slot, false});
+  const std::uint32_t end = page.header().root_count;
+  for (std::uint32_t first = 0; first < end;) {
+    const std::optional<FamilyParent> parent = pending_.take({within, first, false});
     if (!parent) {
       if (complete_)
         report_({IssueCode::kSubtreeUnlinked, page.number, Error::kNowhere,
-                 fmt::format("no link leads to the family in slot {} of the mask", slot)});
-      ++slot;
+                 fmt::format("no link leads to the family at record {} of the mask page", first)});
+      ++first;
       continue;
     }
     const auto members = static_cast<unsigned>(std::popcount(parent->node.grey));
-    if (members > end - slot)
-      report_(
-          {IssueCode::kLinkTarget, page.number, Error::kNowhere,
-           fmt::format("the family in slot {} of the mask has fewer members than its node states",
-                       slot)});
+    if (members > end - first)
+      report_({IssueCode::kLinkTarget, page.number, Error::kNowhere,
+               fmt::format("the family at record {} of the mask page has fewer members than its "
+                           "node states",
+                           first)});
     else
-      assign_cells(page, parent->node, parent->cell, slot);
-    slot += members;
+      assign_cells(page, parent->node, parent->cell, first);
+    first += members;
   }
 }
 
 void MaskWalk::assign_cells(Page& page, const MaskNode& node, const GridCell& cell,
-                            std::uint32_t first_slot) {
-  std::uint32_t slot = first_slot;
+                            std::uint32_t first) {
+  std::uint32_t member = first;
   for (unsigned octant = 0; octant < 8; ++octant) {
     if ((node.grey >> octant & 1) == 0) continue;
-    if (page.is_node(slot) == ((node.leaf >> octant & 1) != 0))
-      report_({IssueCode::kLinkTarget, page.number, Error::kNowhere,
-               fmt::format("the record in slot {} of the mask is not of the kind its node states",
-                           slot)});
+    if (page.is_node(member) == ((node.leaf >> octant & 1) != 0))
+      report_(
+          {IssueCode::kLinkTarget, page.number, Error::kNowhere,
+           fmt::format("record {} of the mask page is not of the kind its node states", member)});
     else
-      page.cell(slot) = cell.child(octant);
-    ++slot;
+      page.cell(member) = cell.child(octant);
+    ++member;
   }
 }
 
 void MaskWalk::visit_records(Page& page) {
-  for (std::uint32_t slot = page.first_slot(); slot < page.end_slot(); ++slot)
-    if (const std::optional<GridCell> cell = page.cell(slot)) visit_record(page, slot, *cell);
+  for (std::uint32_t number = 0; number < page.record_count(); ++number)
+    if (const std::optional<GridCell> cell = page.cell(number)) visit_record(page, number, *cell);
 }
 
-void MaskWalk::visit_record(Page& page, std::uint32_t slot, const GridCell& cell) {
+void MaskWalk::visit_record(Page& page, std::uint32_t number, const GridCell& cell) {
   GreyCell grey;
   grey.page = page.number;
   grey.cell = cell;
-  const std::byte* record = page.slot(slot);
-  if (!page.is_node(slot)) {
+  const std::byte* record = page.record(number);
+  if (!page.is_node(number)) {
     const auto& corners = *reinterpret_cast<const octree::MaskCorners*>(record);
     if (octree::is_special(corners)) {
       grey.special = reinterpret_cast<const octree::MaskSpecial*>(record);
@@ -135,12 +138,14 @@ void MaskWalk::visit_record(Page& page, std::uint32_t slot, const GridCell& cell
     return report_({IssueCode::kPageStructure, page.number, Error::kNowhere,
                     "a cell of the mask is divided below the finest level"});
   const std::uint32_t family = grey.node->family;
-  if (links_.page(family) + parts_.first_mask_page() == page.number)
-    assign_cells(page, *grey.node, cell, links_.slot(family));
-  else if (!pending_.add({links_.page(family), links_.slot(family), false}, {cell, *grey.node}))
+  const std::uint32_t to = links_.page(family);
+  // As in any page of the mask.
+  const std::uint32_t first = links_.slot(family) - page.header().first_record_slot;
+  if (to + parts_.first_mask_page() == page.number)
+    assign_cells(page, *grey.node, cell, first);
+  else if (!pending_.add({to, first, false}, {cell, *grey.node}))
     report_({IssueCode::kLinkTwice, page.number, Error::kNowhere,
-             fmt::format("a second link leads to slot {} of mask page {}", links_.slot(family),
-                         links_.page(family))});
+             fmt::format("a second link leads to record {} of mask page {}", first, to)});
 }
 
 }  // namespace planetree::tools

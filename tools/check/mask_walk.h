@@ -52,9 +52,9 @@ class MaskWalk {
 
   void take_roots(Page& page);
   void assign_cells(Page& page, const octree::MaskNode& node, const octree::GridCell& cell,
-                    std::uint32_t first_slot);
+                    std::uint32_t first);
   void visit_records(Page& page);
-  void visit_record(Page& page, std::uint32_t slot, const octree::GridCell& cell);
+  void visit_record(Page& page, std::uint32_t number, const octree::GridCell& cell);
 
   FileParts& parts_;
   const octree::MaskLinkFormat links_;

@@ -14,7 +14,7 @@ class SubtreeLinks {
  public:
   struct Target {
     std::uint32_t page = 0;
-    std::uint32_t slot = 0;
+    std::uint32_t record = 0;  ///< number in the page
     bool leaf = false;
     auto operator<=>(const Target&) const = default;
   };

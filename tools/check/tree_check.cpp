@@ -99,18 +99,16 @@ class TreeCheck {
 };
 
 bool TreeCheck::run(const CheckProgress& progress) {
-  const std::uint32_t root = section_.root_link;
   SubtreeClaim whole;
   whole.is_root = true;
-  pending_.add({links_.page(root), links_.slot(root), links_.is_leaf(root)}, whole);
+  pending_.add({section_.first_page, 0, section_.nodes == 0}, whole);
   if (section_.first_page == section_.end_page) complete_ = false;
   for (std::uint32_t page = section_.first_page; page < section_.end_page; ++page) {
     check_page(page);
     if (progress) progress(page + 1);
   }
-  if ((links_.page(root) < section_.first_page || links_.page(root) >= section_.end_page) &&
-      parts_.page_count() > 0)
-    report_whole(IssueCode::kLinkTarget, "the header's link to the root leads to no page");
+  if (section_.first_page == section_.end_page && parts_.page_count() > 0)
+    report_whole(IssueCode::kLinkTarget, "the header states no page with the root");
   check_counts();
   return complete_;
 }
@@ -141,7 +139,7 @@ void TreeCheck::check_roots() {
   octree::RawStreams streams;
   parts_.read(streams);
   const octree::FrameHeader& header = frame_->header();
-  for (std::uint32_t i = 0; i < header.root_node_count; ++i) {
+  for (std::uint32_t i = 0; i < header.root_count; ++i) {
     FloatBox box;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       box.lower[axis] = streams.root_boxes[6 * std::size_t{i} + axis];
@@ -149,34 +147,22 @@ void TreeCheck::check_roots() {
     }
     check_root_node(i, box);
   }
-  frame_->for_each_block([&](std::uint32_t index, std::uint32_t slot) {
-    if (index >= header.root_block_count) return;
-    const auto claim = pending_.take({page_, slot, true});
-    if (claim) {
-      block_bounds_[slot] = claim->bounds;
-      if (claim->is_root && section_.height != 0)
-        report(IssueCode::kHeight, "the root is a block, but the header's height is not 0");
-    } else if (complete_) {
-      report(IssueCode::kSubtreeUnlinked,
-             fmt::format("no link leads to the block in slot {}", slot));
-    }
-  });
+  if (header.node_count == 0 && pending_.take({page_, 0, true}) && section_.height != 0)
+    report(IssueCode::kHeight, "the root is a block, but the header's height is not 0");
   pending_.finish_page(page_, [this](const Links::Target& target, const SubtreeClaim& claim) {
     report(IssueCode::kLinkTarget,
-           fmt::format("a link leads to slot {}, where no subtree begins with a {}", target.slot,
-                       target.leaf ? "block" : "root node"));
+           fmt::format("a link leads to {} {}, which is no root of a subtree",
+                       target.leaf ? "block" : "node", target.record));
     open_nodes_.erase(claim.parent);
     complete_ = false;
   });
 }
 
 void TreeCheck::check_root_node(std::uint32_t index, const FloatBox& box) {
-  const std::uint32_t slot = frame_->node_slot(index);
-  const auto claim = pending_.take({page_, slot, false});
+  const auto claim = pending_.take({page_, index, false});
   if (!claim) {
     if (complete_)
-      report(IssueCode::kSubtreeUnlinked,
-             fmt::format("no link leads to the node in slot {}", slot));
+      report(IssueCode::kSubtreeUnlinked, fmt::format("no link leads to node {}", index));
     return;
   }
   const std::uint8_t height = frame_->node(index).height;
@@ -190,8 +176,7 @@ void TreeCheck::check_root_node(std::uint32_t index, const FloatBox& box) {
   node_bounds_[index] = claim->bounds;
   if (!claim->bounds->box.holds(box))
     report(IssueCode::kSubtreeBox,
-           fmt::format("the box of the node in slot {} is not within the one its parent states",
-                       slot));
+           fmt::format("the box of node {} is not within the one its parent states", index));
   settle_height(claim->parent, height);
 }
 
@@ -250,18 +235,17 @@ void TreeCheck::check_node(std::uint32_t index) {
 void TreeCheck::follow_link(std::uint32_t index, unsigned child, OpenNode& open) {
   const Node& node = frame_->node(index);
   const std::uint32_t link = node.link[child];
-  const bool leaf = octree::LinkFormat::is_leaf(link);
+  const std::uint32_t to = frame_->node_at_slot(links_.slot(link));  // as in any page of the tree
   SubtreeClaim claim;
   claim.bounds =
       std::make_shared<const Bounds>(Bounds{child_box(node, child), child_disc(node, child),
                                             frame_->moments(node, child), node_bounds_[index]});
   claim.parent = key_of(index);
-  if (!leaf) ++open.children_left;
-  if (!pending_.add({links_.page(link), links_.slot(link), leaf}, std::move(claim))) {
-    if (!leaf) --open.children_left;
-    report(IssueCode::kLinkTwice, fmt::format("a second link leads to page {}, slot {}",
-                                              links_.page(link), links_.slot(link)));
-  }
+  if (pending_.add({links_.page(link), to, false}, std::move(claim)))
+    ++open.children_left;
+  else
+    report(IssueCode::kLinkTwice,
+           fmt::format("a second link leads to page {}, node {}", links_.page(link), to));
 }
 
 void TreeCheck::check_blocks() {

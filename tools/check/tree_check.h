@@ -12,7 +12,6 @@ namespace planetree::tools {
 struct TreeSection {
   bool is_of_caps = false;
   std::uint32_t first_page = 0, end_page = 0;
-  std::uint32_t root_link = 0;
   std::uint8_t height = 0;
   std::uint64_t nodes = 0, blocks = 0, triangles = 0;
   std::uint64_t indices = 0;  // triangles have lesser indices
@@ -22,7 +21,6 @@ struct TreeSection {
     return {false,
             0,
             parts.first_cap_page(),
-            model.root_link,
             model.height,
             model.node_count,
             model.block_count,
@@ -34,7 +32,6 @@ struct TreeSection {
     return {true,
             parts.first_cap_page(),
             parts.first_field_page(),
-            model.cap_root_link,
             model.cap_height,
             model.cap_node_count,
             model.cap_block_count,

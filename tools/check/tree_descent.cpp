@@ -47,7 +47,7 @@ class TreeDescent {
   // The root's box is in no parent.
   Result<void> begin() {
     const storage::ModelRecord& model = parts_.header()->model;
-    const std::uint32_t link = model.root_link;
+    const std::uint32_t link = parts_.root_link();
     TreePart root;
     root.page = links_.page(link);
     root.is_block = octree::LinkFormat::is_leaf(link);
@@ -102,6 +102,7 @@ class TreeDescent {
     part.page = links_.page(link);
     part.is_block = octree::LinkFormat::is_leaf(link);
     part.begins_page = part.page != page;
+    part.is_only_child = node.child_count == 1;
     part.box = child_box(node, child);
     part.disc = child_disc(node, child);
     part.has_disc = std::isfinite(part.disc.radius) && std::isfinite(part.disc.slab_lower) &&

@@ -15,8 +15,9 @@ struct TreePart {
   std::uint32_t depth = 0;  ///< of the root: 0
   std::uint32_t page = 0;   ///< page that has it
   bool is_block = false;
-  bool begins_page = false;  ///< whether its parent is in another page, or it is the root
-  bool has_disc = false;     ///< not the root, nor where the disc states nothing
+  bool begins_page = false;    ///< whether its parent is in another page, or it is the root
+  bool is_only_child = false;  ///< it then fills the box of its parent
+  bool has_disc = false;       ///< not the root, nor where the disc states nothing
   octree::FloatBox box;
   octree::Disc disc;
 };

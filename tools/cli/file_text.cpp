@@ -30,6 +30,10 @@ std::string content_id_text(std::span<const std::uint64_t, 2> id) {
   return fmt::format("{:016x}{:016x}", id[1], id[0]);
 }
 
+std::string format_version_text(std::uint16_t version) {
+  return fmt::format("{}.{}", version / 256, version % 256);
+}
+
 std::string cell_text(std::uint64_t octcode) {
   const octree::Cell cell = octree::cell_of_octcode(octcode);
   const std::string within = cell.within > 0 ? fmt::format("+{}", cell.within) : std::string();

@@ -12,6 +12,9 @@ namespace planetree::tools {
 /// 32 hexadecimal digits of a 128-bit content id whose low word comes first.
 [[nodiscard]] std::string content_id_text(std::span<const std::uint64_t, 2> id);
 
+/// "1.0" of a version of the format.
+[[nodiscard]] std::string format_version_text(std::uint16_t version);
+
 /// "level/x/y/z" of the octcode's cell, followed by "+n" for n one-bit splits within it.
 [[nodiscard]] std::string cell_text(std::uint64_t octcode);
 

@@ -23,8 +23,7 @@ class Surveyor {
 
   FileSurvey run(const PageVisitor& visit) {
     for (const Issue& issue : parts_.issues()) survey_.issues.add(issue);
-    const std::uint32_t root = parts_.header()->model.root_link;
-    pending_.add({links_.page(root), links_.slot(root), links_.is_leaf(root)}, 0);
+    pending_.add({0, 0, parts_.header()->model.node_count == 0}, 0);
     for (std::uint32_t page = 0; page < parts_.page_count(); ++page) {
       PageRow row{page, parts_.entries()[page], {}, {}, {}, {}, false};
       survey_page(row);
@@ -127,14 +126,15 @@ class Surveyor {
     // Depths of the page's records. Empty where no link from above was seen.
     std::vector<std::optional<std::uint32_t>> node_depths(header.node_count);
     std::map<std::uint32_t, std::uint32_t> block_depths;  // by slot
-    for (std::uint32_t i = 0; i < header.root_node_count; ++i)
-      node_depths[i] = pending_.take({page, frame.node_slot(i), false});
+    for (std::uint32_t i = 0; i < header.root_count; ++i)
+      node_depths[i] = pending_.take({page, i, false});
     for (std::uint32_t i = 0; i < header.node_count; ++i)
       if (node_depths[i]) add_node(page, frame, i, *node_depths[i], node_depths, block_depths);
     bool reached = true;
-    frame.for_each_block([&](std::uint32_t index, std::uint32_t slot) {
-      if (index < header.root_block_count)
-        if (const auto depth = pending_.take({page, slot, true})) block_depths[slot] = *depth;
+    if (header.node_count == 0)
+      if (const auto depth = pending_.take({page, 0, true}))
+        block_depths[header.first_block_slot] = *depth;
+    frame.for_each_block([&](std::uint32_t, std::uint32_t slot) {
       const auto depth = block_depths.find(slot);
       reached = reached && depth != block_depths.end();
       if (depth == block_depths.end()) return;
@@ -171,7 +171,7 @@ class Surveyor {
       const bool leaf = octree::LinkFormat::is_leaf(link);
       const std::uint32_t slot = links_.slot(link);
       if (links_.page(link) != page)
-        pending_.add({links_.page(link), slot, leaf}, depth + 1);
+        pending_.add({links_.page(link), frame.node_at_slot(slot), false}, depth + 1);
       else if (leaf)
         block_depths[slot] = depth + 1;
       else

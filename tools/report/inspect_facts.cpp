@@ -88,7 +88,7 @@ HtmlFigures inspect_facts(const InspectRecord& record) {
   if (!summary["attributes"].empty())
     add("attributes",
         fmt::format("{}", fmt::join(summary["attributes"].get<std::vector<std::string>>(), ", ")));
-  add("format version", summary["format_version"].dump());
+  add("format version", summary["format_version"].get<std::string>());
   add("content id", summary["content_id"].get<std::string>());
   return facts;
 }

@@ -84,7 +84,7 @@ std::string compression_cell(const InspectRecord& record, HtmlPage& page) {
 std::string pages_section(const InspectRecord& record, HtmlPage& page) {
   const PageTally& tally = record.pages;
   if (tally.windows().empty())
-    return section_html("Pages", paragraph_html("The page table cannot be read."));
+    return section_html("Pages", paragraph_html("The directory of pages cannot be read."));
   std::string html;
   if (tally.unreadable() > 0)
     html = paragraph_html(fmt::format("{} {} cannot be read.", grouped_count(tally.unreadable()),

@@ -68,7 +68,9 @@ std::optional<std::uint64_t> min_budget_bytes(const FileParts& parts, std::uint3
 Sections sections_of(const FileParts& parts) {
   Sections sections;
   sections.headers = 2 * storage::kHeaderBytes;
-  sections.page_table = parts.entries().size_bytes();
+  sections.directory = storage::DirectoryShape(parts.page_count()).bytes();
+  for (const storage::ExtensionRecord& record : parts.extensions())
+    sections.extensions += sizeof record + record.bytes;
   for (std::uint32_t page = 0; page < parts.page_count(); ++page)
     (page < parts.first_cap_page()         ? sections.distance_pages
      : page < parts.first_field_page()     ? sections.cap_pages

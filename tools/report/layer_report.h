@@ -14,12 +14,13 @@ namespace planetree::tools {
 /// Stored bytes of each part of a file.
 struct Sections {
   std::uint64_t headers = 0;
-  std::uint64_t page_table = 0;
+  std::uint64_t directory = 0;
   std::uint64_t distance_pages = 0;
   std::uint64_t cap_pages = 0;
   std::uint64_t field_pages = 0;
   std::uint64_t attribute_pages = 0;
   std::uint64_t mask_pages = 0;
+  std::uint64_t extensions = 0;  ///< with their records
 
   std::uint64_t side_pages() const { return cap_pages + mask_pages; }
 };
@@ -29,7 +30,7 @@ struct Sections {
 [[nodiscard]] std::optional<std::uint64_t> min_budget_bytes(const FileParts& parts,
                                                             std::uint32_t layers = kAllLayers);
 
-/// Pages and stored bytes of each layer, without headers and page table. Also what leaving the
+/// Pages and stored bytes of each layer, without headers and directory. Also what leaving the
 /// layer out at open saves: of the minimum budget with one probe, and of the frames that hold all
 /// pages. A layer that the file does not have is null in JSON. The savings of a file that cannot be
 /// opened are null.

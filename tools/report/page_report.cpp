@@ -5,6 +5,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "octree/page/block_table.h"
 #include "tools/cli/file_text.h"
 
 namespace planetree::tools {
@@ -27,8 +28,7 @@ Json entry_json(const storage::PageEntry& entry) {
           {"check", fmt::format("{:016x}", entry.check)},
           {"octcode", fmt::format("0x{:016x}", entry.octcode)},
           {"cell", cell_text(entry.octcode)},
-          {"ordinal", entry.ordinal},
-          {"codec", codec_name(entry.codec)},
+          {"codec", codec_name(entry.codec())},
           {"stored_bytes", entry.stored_bytes},
           {"raw_bytes", entry.raw_bytes}};
 }
@@ -39,8 +39,7 @@ Json head_json(const octree::PageHead& head) {
           {"octcode", fmt::format("0x{:016x}", head.octcode)},
           {"node_count", head.node_count},
           {"block_count", head.block_count},
-          {"root_node_count", head.root_node_count},
-          {"root_block_count", head.root_block_count},
+          {"root_count", head.root_count},
           {"child_count", head.child_count},
           {"page_link_count", head.page_link_count},
           {"vertex_count", head.vertex_count},
@@ -99,6 +98,14 @@ Json streams_json(const FileParts& parts) {
 
 Json vector_json(const std::array<float, 3>& values) { return {values[0], values[1], values[2]}; }
 
+// Number of the record that a link of the current page leads to.
+std::uint32_t record_of(const FileParts& parts, std::uint32_t link) {
+  const std::uint32_t slot = octree::LinkFormat(parts.header()->page_bytes).slot(link);
+  return octree::LinkFormat::is_leaf(link)
+             ? octree::BlockTable(parts.frame_bytes()).number_at(slot).value()
+             : parts.frame().node_at_slot(slot);
+}
+
 Json child_json(const FileParts& parts, const octree::Node& node, unsigned child) {
   const octree::LinkFormat links(parts.header()->page_bytes);
   const octree::FloatBox box = child_box(node, child);
@@ -106,7 +113,7 @@ Json child_json(const FileParts& parts, const octree::Node& node, unsigned child
   const std::uint32_t link = node.link[child];
   return {{"kind", octree::LinkFormat::is_leaf(link) ? "block" : "node"},
           {"page", links.page(link)},
-          {"slot", links.slot(link)},
+          {"record", record_of(parts, link)},
           {"box_lower", vector_json(box.lower)},
           {"box_upper", vector_json(box.upper)},
           {"normal", vector_json(disc.normal)},
@@ -140,17 +147,21 @@ std::string_view kind_of(const PageRow& row) {
   return row.is_of_caps ? "caps" : "distance";
 }
 
+// A tree that is one block has no node.
+unsigned subtree_count(const octree::PageHead& head) {
+  return head.node_count == 0 ? 1U : head.root_count;
+}
+
 }  // namespace
 
 std::string page_heading() {
-  return fmt::format("{:>9} {:<24} {:>8} {:>8} {:>6} {:>6} {:>9} {:>9} {:>9}\n", "page", "octcode",
-                     "ordinal", "subtrees", "nodes", "blocks", "triangles", "raw", "stored");
+  return fmt::format("{:>9} {:<24} {:>8} {:>6} {:>6} {:>9} {:>9} {:>9}\n", "page", "octcode",
+                     "subtrees", "nodes", "blocks", "triangles", "raw", "stored");
 }
 
 std::string page_line(const PageRow& row) {
   const storage::PageEntry& entry = row.entry;
-  const std::string key =
-      fmt::format("{:>9} {:<24} {:>8}", row.number, cell_text(entry.octcode), entry.ordinal);
+  const std::string key = fmt::format("{:>9} {:<24}", row.number, cell_text(entry.octcode));
   if (row.mask)
     return fmt::format("{} {:>32} {:>9} {:>9}\n", key,
                        fmt::format("mask of {} cells", row.mask->record_count), entry.raw_bytes,
@@ -167,10 +178,9 @@ std::string page_line(const PageRow& row) {
     return fmt::format("{} {:>32} {:>9} {:>9}\n", key, "unreadable", entry.raw_bytes,
                        entry.stored_bytes);
   const octree::PageHead& head = *row.head;
-  return fmt::format("{} {:>8} {:>6} {:>6} {:>9} {:>9} {:>9}{}\n", key,
-                     head.root_node_count + head.root_block_count, head.node_count,
-                     head.block_count, head.triangle_count, entry.raw_bytes, entry.stored_bytes,
-                     row.is_of_caps ? " caps" : "");
+  return fmt::format("{} {:>8} {:>6} {:>6} {:>9} {:>9} {:>9}{}\n", key, subtree_count(head),
+                     head.node_count, head.block_count, head.triangle_count, entry.raw_bytes,
+                     entry.stored_bytes, row.is_of_caps ? " caps" : "");
 }
 
 Json page_json(const PageRow& row) {
@@ -183,7 +193,7 @@ Json page_json(const PageRow& row) {
   if (json["readable"]) json["kind"] = kind_of(row);
   if (!row.head) return json;
   const octree::PageHead& head = *row.head;
-  json["subtrees"] = head.root_node_count + head.root_block_count;
+  json["subtrees"] = subtree_count(head);
   json["nodes"] = head.node_count;
   json["blocks"] = head.block_count;
   json["triangles"] = head.triangle_count;
@@ -214,7 +224,7 @@ Json page_details(const FileParts& parts, const PageRow& row, bool decoded) {
 }
 
 std::string page_details_text(const Json& details) {
-  std::string text = object_text("page table entry", details["entry"]);
+  std::string text = object_text("entry in the directory", details["entry"]);
   if (details.contains("head")) {
     text += object_text("page head", details["head"]);
   }
@@ -234,11 +244,11 @@ Json nodes_json(const FileParts& parts, bool roots_only) {
   octree::RawStreams streams;
   const bool whole = parts.read(streams);
   Json nodes = Json::array();
-  const std::uint32_t count = roots_only ? frame.header().root_node_count : frame.node_count();
+  const std::uint32_t count = roots_only ? frame.header().root_count : frame.node_count();
   for (std::uint32_t i = 0; i < count; ++i) {
     const octree::Node& node = frame.node(i);
-    Json json = {{"slot", frame.node_slot(i)}, {"height", node.height}};
-    if (whole && i < frame.header().root_node_count) {
+    Json json = {{"node", i}, {"height", node.height}};
+    if (whole && i < frame.header().root_count) {
       const auto box = [&](std::size_t first) {
         const std::size_t at = 6 * std::size_t{i} + first;
         return vector_json(
@@ -258,16 +268,16 @@ Json nodes_json(const FileParts& parts, bool roots_only) {
 std::string nodes_text(const Json& nodes) {
   std::string text;
   for (const Json& node : nodes) {
-    text += fmt::format("node in slot {}, height {}", node["slot"].dump(), node["height"].dump());
+    text += fmt::format("node {}, height {}", node["node"].dump(), node["height"].dump());
     if (node.contains("box_lower"))
       text += fmt::format(", box {} to {}", numbers_text(node["box_lower"]),
                           numbers_text(node["box_upper"]));
     text += '\n';
     for (const Json& child : node["children"])
       text += fmt::format(
-          "  {:<5} page {} slot {}: box {} to {}; normal {}, slab {:.7g} to {:.7g}, radius "
+          "  {:<5} {} of page {}: box {} to {}; normal {}, slab {:.7g} to {:.7g}, radius "
           "{:.7g}\n",
-          child["kind"].get<std::string>(), child["page"].dump(), child["slot"].dump(),
+          child["kind"].get<std::string>(), child["record"].dump(), child["page"].dump(),
           numbers_text(child["box_lower"]), numbers_text(child["box_upper"]),
           numbers_text(child["normal"]), child["slab_lower"].get<double>(),
           child["slab_upper"].get<double>(), child["radius"].get<double>());

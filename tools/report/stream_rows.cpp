@@ -36,7 +36,8 @@ std::vector<StreamRow> stream_rows(const octree::RawStreams& streams,
     rows.push_back(row("child_second_moments", kNodes, s.child_second_moments));
   }
   const std::vector<StreamRow> others = {
-      row("page_links", kNodes, s.page_links),
+      row("linked_pages", kNodes, s.linked_pages),
+      row("linked_nodes", kNodes, s.linked_nodes),
       row("triangle_counts", kBlocks, s.triangle_counts),
       row("vertex_counts", kBlocks, s.vertex_counts),
       row("new_counts", kBlocks, s.new_counts),
@@ -65,7 +66,8 @@ std::vector<StreamRow> stream_rows(const octree::AttributePageHead& head,
   constexpr StreamGroup kGroup = StreamGroup::kAttributes;
   const std::uint64_t count = head.triangle_count;
   std::vector<StreamRow> rows = {{"attribute_page_head", StreamGroup::kHead, 1, sizeof head},
-                                 {"links", kGroup, count, count * Shape::kLinkBytes}};
+                                 {"triangle_pages", kGroup, count, count * sizeof(std::uint32_t)},
+                                 {"triangle_blocks", kGroup, count, count * sizeof(std::uint16_t)}};
   if (shape.has_colors()) rows.push_back({"colours", kGroup, count, count * Shape::kColorBytes});
   if (shape.has_uvs()) rows.push_back({"uvs", kGroup, 6 * count, count * Shape::kUvBytes});
   if (shape.has_values()) rows.push_back({"values", kGroup, count, count * Shape::kValueBytes});
@@ -82,7 +84,8 @@ std::vector<StreamRow> stream_rows(const octree::MaskStreams& streams,
           row("leaf_masks", kMask, s.leaf),
           row("black_masks", kMask, s.black),
           row("inverted_masks", kMask, s.inverted),
-          row("mask_page_links", kMask, s.page_links),
+          row("mask_linked_pages", kMask, s.linked_pages),
+          row("mask_linked_records", kMask, s.linked_records),
           row("corner_bits", kMask, s.plain_corners),
           row("mask_corners", kMask, s.corners),
           row("plane_counts", kMask, s.plane_counts),
@@ -96,7 +99,8 @@ std::vector<StreamRow> stream_rows(const octree::MaskStreams& streams,
           row("slab_lowers", kMaskLists, s.slab_lowers),
           row("slab_uppers", kMaskLists, s.slab_uppers),
           row("block_octants", kMaskLists, s.block_octants),
-          row("block_links", kMaskLists, s.block_links)};
+          row("block_pages", kMaskLists, s.block_pages),
+          row("block_numbers", kMaskLists, s.block_numbers)};
 }
 
 }  // namespace planetree::tools

@@ -8,10 +8,12 @@
 #include <nlohmann/json.hpp>
 
 #include "query/answer/model_geometry.h"
+#include "storage/file/extension.h"
 #include "tools/cli/attribute_option.h"
 #include "tools/cli/file_text.h"
 #include "tools/cli/size_text.h"
 #include "tools/report/layer_report.h"
+#include "tools/report/level_report.h"
 
 namespace planetree::tools {
 namespace {
@@ -32,14 +34,6 @@ MaskLevelRow mask_sum(const FileSurvey& survey) {
     sum.special += row.special;
   }
   return sum;
-}
-
-Json mask_row_json(const MaskLevelRow& row) {
-  return {{"white", row.white},
-          {"black", row.black},
-          {"grey", row.grey},
-          {"with_corners", row.corners},
-          {"special", row.special}};
 }
 
 std::string field_text(const storage::ModelRecord& model) {
@@ -97,12 +91,13 @@ Json bytes_json(const FileParts& parts, const FileSurvey& survey) {
       streams[name] = streams.value(name, std::uint64_t{0}) + row.bytes;
     }
   return {{"headers", sections.headers},
-          {"page_table", sections.page_table},
+          {"directory", sections.directory},
           {"distance_pages", sections.distance_pages},
           {"cap_pages", sections.cap_pages},
           {"field_pages", sections.field_pages},
           {"attribute_pages", sections.attribute_pages},
           {"mask_pages", sections.mask_pages},
+          {"extensions", sections.extensions},
           {"within_pages", raw},
           {"within_pages_by_stream", streams}};
 }
@@ -191,16 +186,16 @@ std::string raw_text(const FileSurvey& survey) {
   return fmt::format("{} before compression: {}", short_bytes(sum), text);
 }
 
-std::string mask_levels_text(const FileSurvey& survey) {
-  std::string text = fmt::format("{:>5} {:>13} {:>13} {:>15} {:>13} {:>15}\n", "mask", "white",
-                                 "black", "grey", "with corners", "special");
-  for (std::size_t level = 0; level < survey.mask.size(); ++level) {
-    const MaskLevelRow& row = survey.mask[level];
-    text += fmt::format("{:>5} {:>13} {:>13} {:>15} {:>13} {:>15}\n", level,
-                        grouped_count(row.white), grouped_count(row.black), grouped_count(row.grey),
-                        grouped_count(row.corners), grouped_count(row.special));
+// Metadata has a place of its own.
+Json extensions_json(const FileParts& parts) {
+  Json rows = Json::array();
+  for (const storage::ExtensionRecord& record : parts.extensions()) {
+    if (storage::name_of(record) == storage::kMetadataName) continue;
+    rows.push_back({{"name", storage::name_of(record)},
+                    {"bytes", record.bytes},
+                    {"required", record.required != 0}});
   }
-  return text;
+  return rows;
 }
 
 }  // namespace
@@ -238,8 +233,10 @@ Json summary_json(const FileParts& parts, const FileSurvey& survey) {
                {"page_bytes", header.page_bytes},
                {"file_bytes", parts.actual_bytes()},
                {"bytes_per_triangle", share(header.file_bytes, model.triangle_count)},
-               {"format_version", header.version},
+               {"format_version", format_version_text(header.version)},
                {"content_id", content_id_text(header.content_id)},
+               {"metadata", parts.metadata()},
+               {"extensions", extensions_json(parts)},
                {"field", field_json(model)},
                {"attributes", attribute_words(model.attributes)},
                {"mask", mask_row_json(mask_sum(survey))},
@@ -284,10 +281,10 @@ std::string summary_text(const std::string& name, const FileParts& parts,
     text += fmt::format("  attributes  {}\n", fmt::join(attribute_words(model.attributes), ", "));
   text += mask_text(survey, sections, model.triangle_count);
   text += fmt::format(
-      "  file        {}, {:.2f} bytes a triangle: headers {}, page table {}, distance pages {}, {}"
+      "  file        {}, {:.2f} bytes a triangle: headers {}, directory {}, distance pages {}, {}"
       "field pages {}, {}mask pages {}\n",
       short_bytes(parts.actual_bytes()), share(header.file_bytes, model.triangle_count),
-      short_bytes(sections.headers), short_bytes(sections.page_table),
+      short_bytes(sections.headers), short_bytes(sections.directory),
       short_bytes(sections.distance_pages),
       model.cap_count > 0 ? fmt::format("cap pages {}, ", short_bytes(sections.cap_pages)) : "",
       short_bytes(sections.field_pages),
@@ -299,48 +296,8 @@ std::string summary_text(const std::string& name, const FileParts& parts,
   text += fmt::format("  pages       {}, {} each in memory; {}\n", grouped_count(header.page_count),
                       short_bytes(header.page_bytes), raw_text(survey));
   text += fmt::format("  content id  {}\n", content_id_text(header.content_id));
-  return text;
-}
-
-Json mask_levels_json(const FileSurvey& survey) {
-  Json rows = Json::array();
-  for (std::size_t level = 0; level < survey.mask.size(); ++level) {
-    rows.push_back({{"level", level}});
-    rows.back().update(mask_row_json(survey.mask[level]));
-  }
-  return rows;
-}
-
-Json levels_json(const FileSurvey& survey) {
-  Json rows = Json::array();
-  for (std::size_t depth = 0; depth < survey.levels.size(); ++depth) {
-    const LevelRow& row = survey.levels[depth];
-    rows.push_back({{"depth", depth},
-                    {"nodes", row.nodes},
-                    {"blocks", row.blocks},
-                    {"triangles", row.triangles},
-                    {"children_per_node", share(row.children, row.nodes)},
-                    {"triangles_per_block", share(row.triangles, row.blocks)},
-                    {"pages", row.pages},
-                    {"page_bytes", row.page_bytes}});
-  }
-  return rows;
-}
-
-std::string levels_text(const FileSurvey& survey) {
-  std::string text = fmt::format("{:>5} {:>13} {:>13} {:>15} {:>13} {:>15}\n", "depth", "nodes",
-                                 "blocks", "triangles", "children/node", "triangles/block");
-  for (std::size_t depth = 0; depth < survey.levels.size(); ++depth) {
-    const LevelRow& row = survey.levels[depth];
-    text += fmt::format("{:>5} {:>13} {:>13} {:>15} {:>13.2f} {:>15.2f}\n", depth,
-                        grouped_count(row.nodes), grouped_count(row.blocks),
-                        grouped_count(row.triangles), share(row.children, row.nodes),
-                        share(row.triangles, row.blocks));
-  }
-  if (!survey.mask.empty()) text += mask_levels_text(survey);
-  if (survey.unreached_pages > 0)
-    text += fmt::format("{} pages below unreadable pages are not counted\n",
-                        grouped_count(survey.unreached_pages));
+  for (const auto& [key, value] : parts.metadata())
+    text += fmt::format("  {:<10}  {}\n", key, value);
   return text;
 }
 

@@ -14,9 +14,4 @@ namespace planetree::tools {
 [[nodiscard]] std::string summary_text(const std::string& name, const FileParts& parts,
                                        const FileSurvey& survey);
 
-/// Counts by depth of the tree and by level of the mask.
-[[nodiscard]] nlohmann::ordered_json levels_json(const FileSurvey& survey);
-[[nodiscard]] nlohmann::ordered_json mask_levels_json(const FileSurvey& survey);
-[[nodiscard]] std::string levels_text(const FileSurvey& survey);
-
 }  // namespace planetree::tools

@@ -67,9 +67,8 @@ std::string left_out_text(const ModelShare& share) {
 }  // namespace
 
 Json memory_json(const ModelMemory& memory) {
-  return {{"total", memory.total},         {"page_table", memory.page_table},
-          {"side_grid", memory.side_grid}, {"field", memory.field},
-          {"probes", memory.probes},       {"other", memory.other}};
+  return {{"total", memory.total}, {"directory", memory.directory}, {"side_grid", memory.side_grid},
+          {"field", memory.field}, {"probes", memory.probes},       {"other", memory.other}};
 }
 
 bool measure_shares(const SceneDescription& description, const OpenedScene& opened,
@@ -116,10 +115,10 @@ std::string scene_text(const std::string& file, const SceneDescription& descript
     const ModelMemory& memory = share.memory;
     text += fmt::format(
         "  {}: {}, {} triangles, {} instances, layers {}\n"
-        "    besides pages {}: page table {}, side grid {}, field {}, probes {}, other {}\n",
+        "    besides pages {}: directory {}, side grid {}, field {}, probes {}, other {}\n",
         octree::printable(share.model->name), octree::printable(share.model->file.string()),
         grouped_count(share.triangles), grouped_count(share.instances),
-        layers_text(share.model->layers), short_bytes(memory.total), short_bytes(memory.page_table),
+        layers_text(share.model->layers), short_bytes(memory.total), short_bytes(memory.directory),
         short_bytes(memory.side_grid), short_bytes(memory.field), short_bytes(memory.probes),
         short_bytes(memory.other));
     text += left_out_text(share);

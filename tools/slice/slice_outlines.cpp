@@ -34,6 +34,7 @@ Result<std::vector<LevelOutlines>> cell_outlines(FileParts& parts, const SliceCu
   const auto visit = [&](const TreePart& part) {
     const auto box = cut.of(part.box);
     if (!box || box->longer_side() < kMinCellPixels) return false;
+    if (part.is_only_child) return true;  // its box is drawn already
     if (levels.size() <= part.depth) levels.resize(part.depth + 1);
     add_outline(corners_of(*box), levels[part.depth]);
     return true;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "octree/geometry/tree_limits.h"
+#include "octree/page/block_table.h"
 #include "query/file/scale.h"
 
 namespace planetree::tools {
@@ -94,7 +95,7 @@ void ShapeReader::start(const ShapeView& view) {
   for (const ShapeInstance& instance : instances_) {
     views_.push_back(instance.place.view_from(view));
     ShapePiece root;
-    root.link = files_[instance.file].header()->model.root_link;
+    root.link = files_[instance.file].root_link();
     root.page = links_of(instance.file).page(root.link);
     root.instance = static_cast<std::uint32_t>(shape_.pieces.size());
     root.weight = std::numeric_limits<float>::infinity();
@@ -198,11 +199,8 @@ bool ShapeReader::has_record(const ShapePiece& piece) const {
   const FrameView frame = parts.frame();
   const octree::FrameHeader& head = frame.header();
   const std::uint32_t slot = links_of(file_of(piece)).slot(piece.link);
-  if (octree::LinkFormat::is_leaf(piece.link)) {
-    const auto* const starts =
-        reinterpret_cast<const std::uint64_t*>(parts.frame_bytes() + octree::kSlotBytes);
-    return (starts[slot / 64] >> slot % 64 & 1) != 0;
-  }
+  if (octree::LinkFormat::is_leaf(piece.link))
+    return octree::BlockTable(parts.frame_bytes()).number_at(slot).has_value();
   return slot >= head.first_node_slot && frame.node_at_slot(slot) < head.node_count &&
          frame.node_slot(frame.node_at_slot(slot)) == slot;
 }

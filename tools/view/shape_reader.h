@@ -62,7 +62,7 @@ struct ShapeInstance {
 /// threads  one at a time
 class ShapeReader {
  public:
-  /// Reads the header and the page table of a file that ShapeReader takes.
+  /// Reads the header and the directory of a file that ShapeReader takes.
   ///
   /// errors  those of FileParts::open(); kDamaged: its header cannot be read
   static Result<FileParts> open_file(const std::filesystem::path& path);
@@ -84,7 +84,7 @@ class ShapeReader {
   /// errors  as read()
   Result<std::string> read_bytes(const ShapeView& view);
 
-  /// Header and page table of a file.
+  /// Header and directory of a file.
   const FileParts& parts(std::size_t file = 0) const { return files_[file]; }
 
  private:

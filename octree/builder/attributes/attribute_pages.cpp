@@ -26,6 +26,21 @@ void split(const Bytes& records, std::size_t record_bytes, std::size_t at, std::
   out.plain(stream.data(), stream.size());
 }
 
+// Appends the page and the number in it of each block.
+void add_links(std::span<const std::uint32_t> links, std::uint32_t page_bytes, StreamWriter& out) {
+  const LinkFormat format(page_bytes);
+  std::vector<std::uint32_t> pages;
+  std::vector<std::uint16_t> numbers;
+  for (const std::uint32_t link : links) {
+    const bool is_none = link == kNoLink;
+    pages.push_back(is_none ? kNoStoredLink.page : format.page(link));
+    numbers.push_back(is_none ? kNoStoredLink.record
+                              : static_cast<std::uint16_t>(format.number(link)));
+  }
+  out.byte_split(pages);
+  out.byte_split(numbers);
+}
+
 }  // namespace
 
 KeptAttributes KeptAttributes::of(const OrderedMesh& mesh, const BuildOptions& options,
@@ -73,7 +88,7 @@ Result<FilePage> AttributePages::encode(std::uint32_t index, std::uint32_t first
   head.triangle_count = static_cast<std::uint32_t>(links.size());
   StreamWriter bytes;
   bytes.plain(&head, sizeof head);
-  bytes.byte_split(std::vector<std::uint32_t>(links.begin(), links.end()));
+  add_links(links, page_bytes_, bytes);
   const AttributeShape& shape = kept_.shape;
   if (const std::size_t record_bytes = shape.extra_bytes(); record_bytes > 0) {
     Bytes records(links.size() * record_bytes);

@@ -35,7 +35,7 @@ TriangleLinks::TriangleLinks(std::uint64_t index_count, std::uint32_t in_page,
                              storage::SpillFile& file)
     : index_count_(index_count),
       shape_(shape),
-      page_bytes_(page_bytes),
+      format_(page_bytes),
       pages_per_bucket_(bucket_pages(index_count, in_page)),
       bucket_indices_(std::uint64_t{pages_per_bucket_} * in_page),
       buckets_(sizeof(Place), static_cast<std::size_t>((index_count - 1) / bucket_indices_ + 1),
@@ -46,20 +46,18 @@ Result<void> TriangleLinks::add(std::uint32_t number, std::span<const std::byte>
   [[maybe_unused]] const char* const fault = streams.read(raw, shape_);
   assert(fault == nullptr);
   const PageHead& head = streams.head;
-  const LinkFormat links(page_bytes_);
-  std::uint32_t slot = frame_head_slots(page_bytes_) + shape_.node_slots() * head.node_count;
   std::size_t next_step = 0;
   const std::lock_guard one(adding_);
-  for (std::size_t block = 0; block < head.block_count; ++block) {
+  for (std::uint16_t block = 0; block < head.block_count; ++block) {
     std::array<std::uint64_t, kMaxBlockTriangles> indices;
     const std::size_t count = streams.triangle_count(block);
     indices[0] = shape_.wide_ids ? streams.first_ids64[block] : streams.first_ids32[block];
     for (std::size_t i = 1; i < count; ++i, ++next_step)
       indices[i] = indices[i - 1] + (shape_.wide_ids ? streams.id_steps64[next_step]
                                                      : streams.id_steps32[next_step]);
-    const auto added = add_block(links.make(true, number, slot), std::span(indices).first(count));
+    const std::uint32_t link = format_.make_numbered({number, block});
+    const auto added = add_block(link, std::span(indices).first(count));
     if (!added) return added;
-    slot += shape_.slots(streams.vertex_counts[block], streams.compact(block));
   }
   return {};
 }

@@ -13,8 +13,9 @@
 
 namespace planetree::octree {
 
-/// The links of the blocks that have the triangles of a file, sorted by triangle index. They are
-/// collected in buckets of successive indices, each of which fits in memory.
+/// The numbered links (LinkFormat) of the blocks that have the triangles of a file, sorted by
+/// triangle index. They are collected in buckets of successive indices, each of which fits in
+/// memory.
 class TriangleLinks {
  public:
   /// Bytes of a triangle in a bucket.
@@ -47,7 +48,7 @@ class TriangleLinks {
 
   const std::uint64_t index_count_;
   const BlockShape shape_;
-  const std::uint32_t page_bytes_;
+  const LinkFormat format_;
   const std::uint32_t pages_per_bucket_;
   const std::uint64_t bucket_indices_;
   std::mutex adding_;

@@ -9,6 +9,7 @@
 #include "planetree/attributes.h"
 #include "planetree/error.h"
 #include "planetree/layers.h"
+#include "planetree/metadata.h"
 #include "storage/file/file_layout.h"
 
 namespace planetree::octree {
@@ -35,6 +36,7 @@ struct BuildOptions {
   /// Keeps completed work in a checkpoint, and resumes the one that an earlier build of the same
   /// input and options left.
   bool resume = false;
+  Metadata metadata;  ///< as in the file; without a generator there is none
 
   bool has_side_layer() const { return (layers & kSideLayer) != 0; }
   /// What the file keeps: `keep`, with the links that all attributes need.

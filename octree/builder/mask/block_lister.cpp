@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 #include "octree/builder/mask/octant_overlap.h"
 #include "octree/geometry/strict_math.h"
+#include "octree/page/block_table.h"
 #include "octree/traversal/overlap.h"
 #include "octree/traversal/tree_walk.h"
 
@@ -16,6 +18,27 @@ namespace {
 /// Maximum number of nodes and blocks to visit for a cell. Cells of ordinary models take at most a
 /// quarter of it, those among needles thousands: the boxes of needles meet nearly all cells.
 constexpr std::uint64_t kMaxVisits = 256;
+
+/// Finds the numbers of blocks in their pages.
+class BlockNumbers {
+ public:
+  BlockNumbers(std::uint32_t page_bytes, const PageReader& pages)
+      : links_(page_bytes), pages_(pages) {}
+
+  /// Returns the numbered link for the link of a block; none if its page is not available.
+  std::optional<std::uint32_t> numbered(std::uint32_t link) const {
+    const std::uint32_t page = links_.page(link);
+    const std::byte* const frame = pages_.page(pages_.context, page);
+    if (!frame) return std::nullopt;
+    const std::optional<std::uint16_t> number = BlockTable(frame).number_at(links_.slot(link));
+    if (!number) return std::nullopt;
+    return links_.make_numbered({page, *number});
+  }
+
+ private:
+  const LinkFormat links_;
+  const PageReader& pages_;
+};
 
 /// The blocks near a cell, and the octants of the cell that they touch.
 class NearBlocks {
@@ -46,17 +69,18 @@ class NearBlocks {
   // Whether more than kMaxListed blocks touch the cell for certain.
   bool too_many() const { return certain_ > kMaxListed; }
 
-  // False if there are more than kMaxListed.
-  bool list(MaskBlocks& blocks) {
+  BlockLister::Outcome list(const BlockNumbers& numbers, MaskBlocks& blocks) {
     drop_untouched();
-    if (too_many()) return false;
+    if (too_many()) return BlockLister::Outcome::kTooMany;
     std::sort(found_.begin(), found_.begin() + count_);
     blocks.count = static_cast<std::uint8_t>(count_);
     for (unsigned i = 0; i < count_; ++i) {
-      blocks.links[i] = found_[i].first;
+      const std::optional<std::uint32_t> link = numbers.numbered(found_[i].first);
+      if (!link) return BlockLister::Outcome::kLost;
+      blocks.links[i] = *link;
       blocks.octants[i] = found_[i].second;
     }
-    return true;
+    return BlockLister::Outcome::kListed;
   }
 
  private:
@@ -99,7 +123,7 @@ BlockLister::Outcome BlockLister::list(const GridCell& cell, const PageReader& p
   const bool complete = walk(tree_) && (!tree_.caps || walk(*tree_.caps));
   if (near.too_many() || work.nodes + work.blocks >= kMaxVisits) return Outcome::kTooMany;
   if (!complete) return Outcome::kLost;
-  return near.list(blocks) ? Outcome::kListed : Outcome::kTooMany;
+  return near.list(BlockNumbers(tree_.page_bytes, pages), blocks);
 }
 
 }  // namespace planetree::octree

@@ -21,7 +21,7 @@ class BlockLister {
     kTooMany,  ///< more than kMaxListed, or too many boxes meet the cell
     kLost,     ///< a page could not be read
   };
-  /// Lists the blocks in the order of their links.
+  /// Lists the blocks in the order of their links, which are numbered.
   ///
   /// cell    its level is less than kLevels.
   /// blocks  undefined unless kListed.

@@ -54,7 +54,6 @@ Result<BuiltSector> BuiltMask::spill_sector(const MaskTree& mask, const MaskRoot
     if (!spilled) return spilled.error();
     sector.pages.push_back(*spilled);
   }
-  if (root.apart && !plan.pages.empty()) sector.family = plan.families[0];
   sector.cell_count = mask.entries.size() - (root.apart ? 1 : 0);
   sector.levels = mask.levels;
   return sector;
@@ -86,21 +85,15 @@ void BuiltMask::link_sectors() {
     const Page& page = pages_[number];
     (page.sector == kAbove ? numbers : sectors_[page.sector].numbers)[page.index] = number;
   }
-  const MaskLinkFormat links(page_bytes_);
   for (PlannedMaskPage& page : above_plan_.pages) page.number = numbers[page.number];
   for (std::size_t i = 0; i < above_.entries.size(); ++i) {
     const MaskEntry& entry = above_.entries[i];
-    std::uint32_t& family = above_plan_.families[i];
+    StoredLink& family = above_plan_.families[i];
     if (entry.kind == MaskEntry::Kind::kSector)
-      family = link(sectors_[entry.first], sectors_[entry.first].built.family);
+      family = {sectors_[entry.first].numbers[0], 0};
     else if (entry.kind == MaskEntry::Kind::kNode && entry.grey != 0)
-      family = links.make(numbers[links.page(family)], links.slot(family));
+      family.page = numbers[family.page];
   }
-}
-
-std::uint32_t BuiltMask::link(const SectorPages& sector, std::uint32_t link) const {
-  const MaskLinkFormat links(page_bytes_);
-  return links.make(sector.numbers[links.page(link)], links.slot(link));
 }
 
 Result<FilePage> BuiltMask::encode(std::uint32_t number, std::uint32_t first_page) const {
@@ -108,7 +101,7 @@ Result<FilePage> BuiltMask::encode(std::uint32_t number, std::uint32_t first_pag
   if (page.sector != kAbove) {
     const SectorPages& sector = sectors_[page.sector];
     auto raw = read_spilled_page(sector.built.pages[page.index], file_, first_page + number,
-                                 [&](std::uint32_t below) { return link(sector, below); });
+                                 [&](std::uint32_t index) { return sector.numbers[index]; });
     if (!raw) return raw.error();
     return FilePage{page.octcode, 0, *std::move(raw)};
   }

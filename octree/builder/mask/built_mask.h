@@ -17,8 +17,7 @@ namespace planetree::octree {
 
 /// The mask of a sector, with its pages spilled.
 struct BuiltSector {
-  std::vector<SpilledPage> pages;
-  std::uint32_t family = 0;  ///< link to the root's family, with the page's index in `pages`
+  std::vector<SpilledPage> pages;  ///< the first begins with the root's family
   std::uint64_t cell_count = 0;
   unsigned levels = 0;
   SectorRoot root;
@@ -73,8 +72,6 @@ class BuiltMask {
   void count_cells();
   void number_pages();
   void link_sectors();
-  std::uint32_t link(const SectorPages& sector, std::uint32_t link) const;
-
   const std::uint32_t page_bytes_;
   const bool float64_;
   storage::SpillFile& file_;

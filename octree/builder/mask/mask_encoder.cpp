@@ -11,16 +11,18 @@ namespace {
 /// Collects the streams of one page.
 class Streams {
  public:
-  Streams(std::uint32_t page_bytes, std::uint32_t page) : links_(page_bytes), page_(page) {}
+  Streams(std::uint32_t page_bytes, std::uint32_t page) : block_links_(page_bytes), page_(page) {}
 
-  void add_node(const MaskEntry& node, std::uint32_t family) {
-    const bool above = node.grey != 0 && links_.page(family) != page_;
+  void add_node(const MaskEntry& node, StoredLink family) {
+    const bool above = node.grey != 0 && family.page != page_;
     add_kind(above ? MaskKind::kNodeWithLink : MaskKind::kNode);
     grey_.push_back(node.grey);
     leaf_.push_back(node.leaf);
     black_.push_back(node.black);
     inverted_.push_back(node.inverted);
-    if (above) page_links_.push_back(family);
+    if (!above) return;
+    linked_pages_.push_back(family.page);
+    linked_records_.push_back(family.record);
   }
 
   void add_corners(const MaskCorners& corners) {
@@ -61,23 +63,25 @@ class Streams {
     slab_uppers_.push_back(blocks.slab.upper);
     block_octants_.insert(block_octants_.end(), blocks.octants.begin(),
                           blocks.octants.begin() + blocks.count);
-    block_links_.insert(block_links_.end(), blocks.links.begin(),
-                        blocks.links.begin() + blocks.count);
+    for (unsigned i = 0; i < blocks.count; ++i) {
+      block_pages_.push_back(block_links_.page(blocks.links[i]));
+      block_numbers_.push_back(static_cast<std::uint16_t>(block_links_.number(blocks.links[i])));
+    }
   }
 
   void describe(MaskPageHead& head) const {
     head.record_count = static_cast<std::uint16_t>(kinds_.size());
     head.node_count = static_cast<std::uint16_t>(grey_.size());
-    head.page_link_count = static_cast<std::uint16_t>(page_links_.size());
+    head.page_link_count = static_cast<std::uint16_t>(linked_pages_.size());
     head.plain_count = static_cast<std::uint16_t>(plain_.size());
     head.corners_count = static_cast<std::uint16_t>(corners_.size() / 8);
     head.special_count = static_cast<std::uint16_t>(plane_counts_.size());
     head.plane_count = static_cast<std::uint16_t>(planes_.size() / 9);
     head.listed_count = static_cast<std::uint16_t>(block_counts_.size());
-    head.block_link_count = static_cast<std::uint16_t>(block_links_.size());
+    head.block_link_count = static_cast<std::uint16_t>(block_pages_.size());
   }
 
-  std::uint32_t link_count() const { return static_cast<std::uint32_t>(page_links_.size()); }
+  std::uint32_t link_count() const { return static_cast<std::uint32_t>(linked_pages_.size()); }
 
   // Returns the offset of the links to other pages.
   std::size_t write(StreamWriter& writer, bool float64) const {
@@ -87,7 +91,8 @@ class Streams {
     writer.byte_split(black_);
     writer.byte_split(inverted_);
     const std::size_t links_at = writer.size();
-    writer.byte_split(page_links_);
+    writer.byte_split(linked_pages_);
+    writer.byte_split(linked_records_);
     writer.byte_split(plain_);
     writer.byte_split(corners_);
     writer.byte_split(plane_counts_);
@@ -104,19 +109,20 @@ class Streams {
     writer.byte_split(slab_lowers_);
     writer.byte_split(slab_uppers_);
     writer.byte_split(block_octants_);
-    writer.byte_split(block_links_);
+    writer.byte_split(block_pages_);
+    writer.byte_split(block_numbers_);
     return links_at;
   }
 
  private:
   void add_kind(MaskKind kind) { kinds_.push_back(static_cast<std::uint8_t>(kind)); }
 
-  const MaskLinkFormat links_;
+  const LinkFormat block_links_;
   const std::uint32_t page_;
   std::vector<std::uint8_t> kinds_, grey_, leaf_, black_, inverted_, plain_, plane_counts_;
   std::vector<std::uint8_t> higher_, block_counts_, slab_lowers_, slab_uppers_, block_octants_;
-  std::vector<std::uint16_t> slab_directions_;
-  std::vector<std::uint32_t> page_links_, block_links_;
+  std::vector<std::uint16_t> slab_directions_, linked_records_, block_numbers_;
+  std::vector<std::uint32_t> linked_pages_, block_pages_;
   std::vector<std::int8_t> corners_, behind_, beyond_, min_;
   std::vector<double> planes_;
 };

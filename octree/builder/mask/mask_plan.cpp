@@ -25,9 +25,8 @@ class MaskPlanner {
   MaskPlanner(const MaskTree& mask, std::uint32_t page_bytes, const MaskRoot& root)
       : mask_(mask),
         root_(root),
-        links_(page_bytes),
-        head_slots_(mask_head_slots(page_bytes)),
-        capacity_(static_cast<std::uint32_t>(page_bytes / kMaskSlotBytes) - head_slots_) {
+        capacity_(static_cast<std::uint32_t>(page_bytes / kMaskSlotBytes) -
+                  mask_head_slots(page_bytes)) {
     plan_.page_bytes = page_bytes;
   }
 
@@ -133,12 +132,14 @@ class MaskPlanner {
     std::sort(
         plan_.pages.begin(), plan_.pages.end(),
         [](const PlannedMaskPage& a, const PlannedMaskPage& b) { return a.octcode < b.octcode; });
-    std::vector<std::uint32_t> entry_links(mask_.entries.size());
+    std::vector<StoredLink> entry_links(mask_.entries.size());
     for (std::uint32_t number = 0; number < plan_.pages.size(); ++number) {
       plan_.pages[number].number = number;
-      std::uint32_t slot = head_slots_;
-      for (const std::uint32_t entry : plan_.pages[number].entries)
-        entry_links[entry] = links_.make(number, slot++);
+      StoredLink link{number, 0};
+      for (const std::uint32_t entry : plan_.pages[number].entries) {
+        entry_links[entry] = link;
+        ++link.record;
+      }
     }
     plan_.families.resize(mask_.entries.size());
     for (std::uint32_t at = 0; at < mask_.entries.size(); ++at)
@@ -147,8 +148,6 @@ class MaskPlanner {
 
   const MaskTree& mask_;
   const MaskRoot root_;
-  const MaskLinkFormat links_;
-  const std::uint32_t head_slots_;
   const std::uint32_t capacity_;
   std::vector<std::uint32_t> below_;
   std::vector<Draft> drafts_;

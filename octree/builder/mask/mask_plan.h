@@ -5,6 +5,7 @@
 
 #include "octree/builder/mask/mask_tree.h"
 #include "octree/geometry/cell_grid.h"
+#include "octree/page/link.h"
 
 namespace planetree::octree {
 
@@ -18,9 +19,11 @@ struct PlannedMaskPage {
 };
 
 struct MaskPlan {
-  std::uint32_t page_bytes = 0;         ///< size of every frame
-  std::vector<PlannedMaskPage> pages;   ///< in the order of their keys
-  std::vector<std::uint32_t> families;  ///< link to the family of each entry that is a node
+  std::uint32_t page_bytes = 0;        ///< size of every frame
+  std::vector<PlannedMaskPage> pages;  ///< in the order of their keys
+  /// Link to the family of each entry that is a node; its page is the one within the mask. The
+  /// family of a root that is apart is the first of the first page.
+  std::vector<StoredLink> families;
 };
 
 /// The cell that a mask is of, and whether the root's own entry is in a page of another mask.

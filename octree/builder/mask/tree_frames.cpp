@@ -56,7 +56,6 @@ Result<void> TreeFrames::decode(std::uint32_t number, std::span<std::byte> frame
   info.page_count = mask_->size();
   info.page_number = number;
   info.octcode = raw->octcode;
-  info.ordinal = raw->ordinal;
   return decode_mask_page(raw->bytes, info, frame);
 }
 

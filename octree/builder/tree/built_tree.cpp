@@ -30,7 +30,7 @@ TreeInfo BuiltTree::info() const {
   TreeInfo info;
   info.page_bytes = page_bytes_;
   info.first_page = pages_.first();
-  info.root_link = pages_.root_link();
+  info.root_link = root_link_of(page_bytes_, pages_.first(), node_count_);
   info.shape = shape_;
   info.record_count = node_count_ + block_count_;
   info.box_lower = frame_.lower();
@@ -51,7 +51,6 @@ PageInfo BuiltTree::info_of_page(std::uint32_t number) const {
   info.shape = shape_;
   info.page_number = number;
   info.octcode = page.octcode;
-  info.ordinal = page.ordinal;
   return info;
 }
 

@@ -31,7 +31,7 @@ void describe(const Triangles& triangles, const WideTree& tree, BuiltChunk& chun
 
 }  // namespace
 
-Result<BuiltChunk> build_chunk(const Triangles& triangles, const Point& centre,
+Result<BuiltChunk> build_chunk(const Triangles& triangles, bool is_whole, const Point& centre,
                                const BlockShape& shape, std::uint32_t page_bytes,
                                storage::SpillFile& file) {
   BuiltChunk chunk;
@@ -44,6 +44,11 @@ Result<BuiltChunk> build_chunk(const Triangles& triangles, const Point& centre,
   }
   ChunkVertices vertices(triangles);
   vertices.list_blocks(tree.blocks, keys);
+  const std::vector<std::uint8_t> of_blocks =
+      block_slots(triangles, vertices, keys, tree.blocks, shape);
+  const RecordSlots slots{shape.node_slots(), of_blocks};
+  part_blocks(tree, slots, page_bytes);
+  if (tree.nodes.empty() && !is_whole) add_root(tree, chunk.box);
   fit_discs(triangles, vertices, centre, keys, tree);
   if (shape.moments) {
     TreeMoments moments = sum_moments(triangles, centre, keys, tree, chunk.box);
@@ -51,11 +56,8 @@ Result<BuiltChunk> build_chunk(const Triangles& triangles, const Point& centre,
     chunk.sums = moments.root;
   }
   describe(triangles, tree, chunk);
-  const std::vector<std::uint8_t> of_blocks =
-      block_slots(triangles, vertices, keys, tree.blocks, shape);
-  const auto plan = plan_pages(tree, keys, {shape.node_slots(), of_blocks}, page_bytes);
+  const auto plan = plan_pages(tree, keys, slots, page_bytes);
   if (!plan) return plan.error();
-  chunk.root_link = tree.nodes.empty() ? plan->block_links[0] : plan->node_links[0];
   const PageEncoder encoder(triangles, vertices, keys, tree, *plan, shape);
   for (const PlannedPage& page : plan->pages) {
     const auto spilled = spill_page(page.octcode, encoder.encode(page.number), file);

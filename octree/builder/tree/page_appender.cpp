@@ -38,8 +38,7 @@ Result<void> PageAppender::append(std::uint32_t count,
     if (!encoded) return encoded;
     for (std::uint32_t i = 0; i < some; ++i) {
       const Encoded& page = batch[i];
-      const auto appended =
-          writer_.append(page.octcode, page.ordinal, page.raw_bytes, *page.stored);
+      const auto appended = writer_.append(page.octcode, page.raw_bytes, *page.stored);
       if (!appended) return appended;
     }
     appended_ += some;

@@ -14,7 +14,7 @@ namespace {
 class NodeEncoder {
  public:
   NodeEncoder(const PagePlan& plan, std::uint32_t page_number)
-      : plan_(plan), links_(plan.page_bytes), page_number_(page_number) {}
+      : plan_(plan), page_number_(page_number) {}
 
   void add(const WideNode& node, bool root, const NodeMoments* moments) {
     if (root) {
@@ -36,7 +36,7 @@ class NodeEncoder {
   void describe(PageHead& head) const {
     head.node_count = static_cast<std::uint16_t>(child_counts_.size());
     head.child_count = static_cast<std::uint16_t>(packed_.size());
-    head.page_link_count = static_cast<std::uint16_t>(page_links_.size());
+    head.page_link_count = static_cast<std::uint16_t>(linked_pages_.size());
   }
 
   void write(StreamWriter& writer) const {
@@ -61,7 +61,8 @@ class NodeEncoder {
     writer.byte_split(slabs);
     writer.byte_split(radii);
     write_moments(writer);
-    writer.byte_split(page_links_);
+    writer.byte_split(linked_pages_);
+    writer.byte_split(linked_nodes_);
   }
 
  private:
@@ -82,23 +83,23 @@ class NodeEncoder {
   }
 
   ChildKind kind_of(const WideChild& child) {
-    const std::uint32_t link =
+    const StoredLink link =
         child.block ? plan_.block_links[child.index] : plan_.node_links[child.index];
-    if (links_.page(link) == page_number_)
-      return child.block ? ChildKind::kBlock : ChildKind::kNode;
-    page_links_.push_back(link);
+    if (link.page == page_number_) return child.block ? ChildKind::kBlock : ChildKind::kNode;
+    linked_pages_.push_back(link.page);
+    linked_nodes_.push_back(link.record);
     return ChildKind::kPage;
   }
 
   const PagePlan& plan_;
-  LinkFormat links_;
   std::uint32_t page_number_;
   std::vector<float> root_boxes_;
   std::vector<std::uint8_t> child_counts_, heights_;
   std::vector<std::uint16_t> kinds_;
   std::vector<PackedChild> packed_;
   std::vector<Moments> moments_;
-  std::vector<std::uint32_t> page_links_;
+  std::vector<std::uint32_t> linked_pages_;
+  std::vector<std::uint16_t> linked_nodes_;
 };
 
 }  // namespace
@@ -108,15 +109,14 @@ EncodedPage PageEncoder::encode(std::size_t which) const {
   NodeEncoder nodes(plan_, page.number);
   BlockEncoder blocks(mesh_, vertices_, keys_, shape_);
   for (std::size_t i = 0; i < page.nodes.size(); ++i)
-    nodes.add(tree_.nodes[page.nodes[i]], i < page.root_node_count,
+    nodes.add(tree_.nodes[page.nodes[i]], i < page.root_count,
               shape_.moments ? &tree_.moments[page.nodes[i]] : nullptr);
   for (const std::uint32_t block : page.blocks) blocks.add(tree_.blocks[block]);
   PageHead head{};
   head.page_number = page.number;
   head.octcode = page.octcode;
   head.ordinal = page.ordinal;
-  head.root_node_count = page.root_node_count;
-  head.root_block_count = page.root_block_count;
+  head.root_count = page.root_count;
   nodes.describe(head);
   blocks.describe(head);
   StreamWriter writer;
@@ -124,7 +124,7 @@ EncodedPage PageEncoder::encode(std::size_t which) const {
   nodes.write(writer);
   EncodedPage raw;
   raw.link_count = head.page_link_count;
-  raw.links_at = static_cast<std::uint32_t>(writer.size() - raw.link_count * sizeof(std::uint32_t));
+  raw.links_at = static_cast<std::uint32_t>(writer.size() - raw.link_count * kPageLinkBytes);
   blocks.write(writer);
   raw.bytes = writer.take();
   return raw;

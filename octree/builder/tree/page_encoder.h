@@ -13,10 +13,13 @@
 
 namespace planetree::octree {
 
-/// A page's raw bytes, and the offset of its links to other pages in them.
+/// Bytes of a link to another page: its page in one stream, its record in the next.
+inline constexpr std::uint32_t kPageLinkBytes = sizeof(std::uint32_t) + sizeof(std::uint16_t);
+
+/// A page's raw bytes, and where its links to other pages are in them.
 struct EncodedPage {
   std::vector<std::byte> bytes;
-  std::uint32_t links_at = 0;
+  std::uint32_t links_at = 0;  ///< offset of the linked pages' numbers
   std::uint32_t link_count = 0;
 };
 

@@ -47,9 +47,4 @@ Result<void> PageNumbers::check() const {
                     first_page_ + pages_.size());
 }
 
-std::uint32_t PageNumbers::link(std::uint32_t chunk, std::uint32_t link) const {
-  return links_.make(LinkFormat::is_leaf(link), of_chunk_[chunk][links_.page(link)],
-                     links_.slot(link));
-}
-
 }  // namespace planetree::octree

@@ -34,8 +34,10 @@ class PageNumbers {
   const NumberedPage& page(std::uint32_t number) const { return pages_[number - first_page_]; }
   /// The number in the file of a page of the top tree.
   std::uint32_t top_tree_page(std::size_t index) const { return of_top_tree_[index]; }
-  /// The link in the file for a link within a chunk.
-  std::uint32_t link(std::uint32_t chunk, std::uint32_t link) const;
+  /// The number in the file of a page of a chunk.
+  std::uint32_t chunk_page(std::uint32_t chunk, std::size_t index) const {
+    return of_chunk_[chunk][index];
+  }
 
  private:
   const LinkFormat links_;

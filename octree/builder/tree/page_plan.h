@@ -14,23 +14,26 @@ namespace planetree::octree {
 /// Contents of one page: indices into a WideTree, in the order of the frame.
 struct PlannedPage {
   std::uint32_t number = 0;
-  std::uint64_t octcode = 0;  ///< octcode of the least key of its subtrees
-  std::uint32_t ordinal = 0;  ///< ordinal of that key
-  std::uint16_t root_node_count = 0;
-  std::uint16_t root_block_count = 0;
+  std::uint64_t octcode = 0;          ///< octcode of the least key of its subtrees
+  std::uint32_t ordinal = 0;          ///< ordinal of that key
+  std::uint16_t root_count = 0;       ///< nodes at the front that are roots of subtrees
   std::vector<std::uint32_t> nodes;   ///< roots first, then breadth first
-  std::vector<std::uint32_t> blocks;  ///< roots first, then as nodes refer to them
+  std::vector<std::uint32_t> blocks;  ///< as nodes refer to them
 };
 
-/// The page of every record, and its slot in the frame.
+/// The page of every record, and its number there.
 struct PagePlan {
-  std::uint32_t page_bytes = 0;            ///< size of every frame
-  std::vector<PlannedPage> pages;          ///< in the order of their keys
-  std::vector<std::uint32_t> node_links;   ///< link to each wide node
-  std::vector<std::uint32_t> block_links;  ///< link to each block
+  std::uint32_t page_bytes = 0;         ///< size of every frame
+  std::vector<PlannedPage> pages;       ///< in the order of their keys
+  std::vector<StoredLink> node_links;   ///< link to each wide node
+  std::vector<StoredLink> block_links;  ///< link to each block
 };
 
-/// Packs a tree into pages of `page_bytes`.
+/// Gives a node of its own to each block of a node that does not fit in the bottom of a page
+/// together with its blocks. So every subtree that begins a page has a node as its root.
+void part_blocks(WideTree& tree, const RecordSlots& slots, std::uint32_t page_bytes);
+
+/// Packs a tree into pages of `page_bytes`, after part_blocks().
 ///
 /// Bottom subtrees of at most a quarter page are kept whole. What is left above them is cut again,
 /// into subtrees of at most a page, until the root is reached. Subtrees that hang from one page

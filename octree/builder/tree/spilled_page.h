@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "octree/builder/tree/page_encoder.h"
-#include "octree/builder/tree/split_links.h"
+#include "octree/builder/tree/split_pages.h"
 #include "octree/page/mask_streams.h"
 #include "octree/page/page_streams.h"
 #include "planetree/error.h"
@@ -20,7 +20,7 @@ struct SpilledPage {
   std::uint64_t octcode = 0;
   std::uint64_t offset = 0;  ///< offset of its raw bytes in the SpillFile
   std::uint32_t raw_bytes = 0;
-  std::uint32_t links_at = 0;    ///< offset in them of the links to other pages, byte-split
+  std::uint32_t links_at = 0;    ///< offset in them of the linked pages' numbers, byte-split
   std::uint32_t link_count = 0;  ///< number of those links
 };
 
@@ -32,19 +32,19 @@ inline Result<SpilledPage> spill_page(std::uint64_t octcode, const EncodedPage& 
                      page.link_count};
 }
 
-/// Reads the raw bytes back, and replaces the page number and every link to another page.
+/// Reads the raw bytes back, and replaces the page number and those of linked pages.
 ///
-/// number  page number in the file.
-/// link    link(l) is the link in the file for the spilled link l.
-template <class Link>
+/// number     page number in the file.
+/// number_of  number_of(p) is what links call the page that spilled links call p.
+template <class NumberOf>
 Result<std::vector<std::byte>> read_spilled_page(const SpilledPage& page,
                                                  const storage::SpillFile& file,
-                                                 std::uint32_t number, const Link& link) {
+                                                 std::uint32_t number, const NumberOf& number_of) {
   std::vector<std::byte> raw(page.raw_bytes);
   if (const auto read = file.read(page.offset, raw); !read) return read.error();
   static_assert(offsetof(PageHead, page_number) == 0 && offsetof(MaskPageHead, page_number) == 0);
   std::memcpy(raw.data(), &number, sizeof number);
-  replace_links(raw.data() + page.links_at, page.link_count, link);
+  replace_pages(raw.data() + page.links_at, page.link_count, number_of);
   return raw;
 }
 

@@ -120,7 +120,7 @@ class TopTreePlanner {
     PlannedPage page;
     page.octcode = ~std::uint64_t{0};
     for (const std::uint32_t root : roots) page.octcode = std::min(page.octcode, octcode_of(root));
-    page.root_node_count = static_cast<std::uint16_t>(roots.size());
+    page.root_count = static_cast<std::uint16_t>(roots.size());
     page.nodes = std::move(roots);
     pages_.push_back(std::move(page));
   }

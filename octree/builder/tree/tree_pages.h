@@ -24,7 +24,6 @@ class TreePages {
   std::uint32_t first() const { return numbers_.first_page(); }
   /// Whether a page of the file is one of these.
   bool has(std::uint32_t number) const { return number - first() < size(); }
-  std::uint32_t root_link() const;
   /// number  in the file.
   Result<FilePage> encode(std::uint32_t number) const;
 

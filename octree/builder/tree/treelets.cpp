@@ -1,19 +1,22 @@
 #include "octree/builder/tree/treelets.h"
 
+#include <algorithm>
+#include <cassert>
+
 namespace planetree::octree {
 namespace {
 
 class TreeletCutter {
  public:
-  TreeletCutter(const WideTree& tree, const RecordSlots& slots, std::uint32_t bottom_slots)
-      : tree_(tree),
-        slots_(slots),
-        own_slots_(tree.nodes.size(), slots.node),
-        parent_(tree.nodes.size(), 0),
-        left_(tree.nodes.size(), true) {
+  TreeletCutter(const WideTree& tree, const RecordSlots& slots)
+      : tree_(tree), parent_(tree.nodes.size(), 0), left_(tree.nodes.size(), true) {
     cut.cut_nodes.resize(tree.nodes.size());
-    cut.cut_blocks.resize(tree.blocks.size());
-    for (std::uint32_t i = 0; i < tree.nodes.size(); ++i) assign_blocks(i, bottom_slots);
+    for (std::uint32_t at = 0; at < tree.nodes.size(); ++at) {
+      const WideNode& node = tree.nodes[at];
+      own_slots_.push_back(slots_with_blocks(node, slots));
+      for (unsigned i = 0; i < node.child_count; ++i)
+        if (!node.children[i].block) parent_[node.children[i].index] = at;
+    }
   }
 
   bool done() const { return !left_[0]; }
@@ -32,7 +35,7 @@ class TreeletCutter {
       taken[i] = true;
       if (with_parent) continue;
       cut.cut_nodes[i] = true;
-      cut.treelets.push_back({{false, i}, static_cast<std::uint32_t>(slots[i])});
+      cut.treelets.push_back({i, static_cast<std::uint32_t>(slots[i])});
     }
     for (std::size_t i = 0; i < taken.size(); ++i)
       if (taken[i]) left_[i] = false;
@@ -41,31 +44,7 @@ class TreeletCutter {
   TreeletCut cut;
 
  private:
-  // If a node is too large together with its blocks, each of them is a treelet by itself.
-  void assign_blocks(std::uint32_t at, std::uint32_t bottom_slots) {
-    const WideNode& node = tree_.nodes[at];
-    std::uint32_t together = slots_.node;
-    for (unsigned i = 0; i < node.child_count; ++i) {
-      const WideChild& child = node.children[i];
-      if (child.block)
-        together += slots_.blocks[child.index];
-      else
-        parent_[child.index] = at;
-    }
-    if (together <= bottom_slots) {
-      own_slots_[at] = together;
-      return;
-    }
-    for (unsigned i = 0; i < node.child_count; ++i) {
-      const WideChild& child = node.children[i];
-      if (!child.block) continue;
-      cut.cut_blocks[child.index] = true;
-      cut.treelets.push_back({{true, child.index}, slots_.blocks[child.index]});
-    }
-  }
-
   const WideTree& tree_;
-  const RecordSlots& slots_;
   std::vector<std::uint32_t> own_slots_;  // slots of a node and the blocks kept with it
   std::vector<std::uint32_t> parent_;
   std::vector<bool> left_;  // in no treelet yet
@@ -73,15 +52,23 @@ class TreeletCutter {
 
 }  // namespace
 
+std::uint32_t bottom_slots(std::uint32_t page_bytes, const RecordSlots& slots) {
+  const auto quarter = static_cast<std::uint32_t>(page_bytes / 4 / kSlotBytes);
+  const std::uint8_t largest = slots.blocks.empty() ? 0 : *std::ranges::max_element(slots.blocks);
+  return std::max({quarter, 2048 / static_cast<std::uint32_t>(kSlotBytes), slots.node + largest});
+}
+
+std::uint32_t slots_with_blocks(const WideNode& node, const RecordSlots& slots) {
+  std::uint32_t together = slots.node;
+  for (unsigned i = 0; i < node.child_count; ++i)
+    if (node.children[i].block) together += slots.blocks[node.children[i].index];
+  return together;
+}
+
 TreeletCut cut_treelets(const WideTree& tree, const RecordSlots& slots, std::uint32_t bottom_slots,
                         std::uint32_t upper_slots) {
-  if (tree.nodes.empty()) {
-    TreeletCut cut;
-    cut.treelets.push_back({{true, 0}, slots.blocks[0]});
-    cut.cut_blocks.push_back(true);
-    return cut;
-  }
-  TreeletCutter cutter(tree, slots, bottom_slots);
+  assert(!tree.nodes.empty());
+  TreeletCutter cutter(tree, slots);
   cutter.round(bottom_slots);
   while (!cutter.done()) cutter.round(upper_slots);
   return std::move(cutter.cut);

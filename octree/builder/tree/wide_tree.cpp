@@ -157,6 +157,17 @@ class Collapser {
   WideTree& tree_;
 };
 
+// Returns a node with this box whose only child is a block.
+WideNode node_of_block(const FloatBox& box, WideChild block) {
+  pack_box(box, block);
+  WideNode node;
+  node.box = box;
+  node.child_count = 1;
+  node.height = 1;
+  node.children[0] = block;
+  return node;
+}
+
 }  // namespace
 
 WideTree collapse(const std::vector<BinaryNode>& binary, bool keeps_root) {
@@ -167,6 +178,35 @@ WideTree collapse(const std::vector<BinaryNode>& binary, bool keeps_root) {
   else
     collapser.add_node(0, binary[0].box);
   return tree;
+}
+
+void part_block(WideTree& tree, std::uint32_t node, unsigned child) {
+  const WideChild block = tree.nodes[node].children[child];
+  WideChild& parted = tree.nodes[node].children[child];
+  parted.block = false;
+  parted.index = static_cast<std::uint32_t>(tree.nodes.size());
+  tree.nodes.push_back(node_of_block(block.box, block));
+}
+
+void add_root(WideTree& tree, const FloatBox& box) {
+  const WideBlock& all = tree.blocks[0];
+  WideChild block;
+  block.block = true;
+  block.begin = all.begin;
+  block.end = all.end;
+  block.true_box = box;
+  tree.nodes.push_back(node_of_block(box, block));
+}
+
+void raise_heights(WideTree& tree) {
+  // Children come after their parents.
+  for (auto node = tree.nodes.rbegin(); node != tree.nodes.rend(); ++node) {
+    unsigned height = 0;
+    for (unsigned i = 0; i < node->child_count; ++i)
+      if (!node->children[i].block)
+        height = std::max<unsigned>(height, tree.nodes[node->children[i].index].height);
+    node->height = static_cast<std::uint8_t>(height + 1);
+  }
 }
 
 }  // namespace planetree::octree

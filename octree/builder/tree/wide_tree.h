@@ -41,7 +41,7 @@ struct WideBlock {
 /// stored. Parents come before children. A model of at most 16 triangles is one block without a
 /// node.
 struct WideTree {
-  std::vector<WideNode> nodes;  ///< in preorder
+  std::vector<WideNode> nodes;
   std::vector<WideBlock> blocks;
   std::vector<NodeMoments> moments;  ///< by node; empty if the model is watertight
 };
@@ -53,5 +53,15 @@ struct WideTree {
 /// is
 ///             far larger than the other, the steps of the root's box resolve nothing of the other.
 WideTree collapse(const std::vector<BinaryNode>& binary, bool keeps_root = false);
+
+/// Puts a node between a node and one of its blocks. The block becomes the only child of the new
+/// node, which is the last of the tree. Heights are not raised, see raise_heights().
+void part_block(WideTree& tree, std::uint32_t node, unsigned child);
+
+/// Gives a tree that is one block, of this box, a node as its root.
+void add_root(WideTree& tree, const FloatBox& box);
+
+/// Sets the heights of all nodes.
+void raise_heights(WideTree& tree);
 
 }  // namespace planetree::octree

@@ -45,7 +45,7 @@ struct ComposedPage {
   ComposedPage(std::uint32_t number, std::uint32_t rank, std::uint32_t triangles)
       : head{number, rank, 0, 0, triangles, 0} {
     for (std::uint32_t i = 0; i < triangles; ++i) {
-      links.push_back(0x80000000 | (i % 3 * 64 + 2 + i % 62));
+      links.push_back(spec_link(true, i % 3, i % 16));
       std::array<std::uint8_t, 12>& colour = colours.emplace_back();
       for (std::uint32_t k = 0; k < 12; ++k) colour[k] = static_cast<std::uint8_t>(12 * i + k);
       for (std::uint32_t k = 0; k < 6; ++k)
@@ -58,7 +58,7 @@ struct ComposedPage {
     std::vector<std::byte> raw;
     for (const std::uint32_t word : head)
       for (unsigned k = 0; k < 4; ++k) raw.push_back(static_cast<std::byte>(word >> (8 * k)));
-    if ((attributes & kLinkBit) != 0) append_split(raw, links);
+    if ((attributes & kLinkBit) != 0) append_links(raw);
     if ((attributes & kColourBit) != 0) append_split(raw, colours);
     if ((attributes & kUvBit) != 0) append_split(raw, uvs);
     if ((attributes & kValueBit) != 0) append_split(raw, values);
@@ -67,9 +67,20 @@ struct ComposedPage {
     return raw;
   }
 
+  void append_links(std::vector<std::byte>& raw) const {
+    std::vector<std::uint32_t> pages;
+    std::vector<std::uint16_t> blocks;
+    for (const SpecLink link : links) {
+      pages.push_back(page_of_link(link));
+      blocks.push_back(static_cast<std::uint16_t>(link));
+    }
+    append_split(raw, pages);
+    append_split(raw, blocks);
+  }
+
   // ComposedPage number, ordinal, both halves of the octcode, triangle count and reserved.
   std::array<std::uint32_t, 6> head;
-  std::vector<std::uint32_t> links;
+  std::vector<SpecLink> links;
   std::vector<std::array<std::uint8_t, 12>> colours;
   std::vector<float> uvs;
   std::vector<std::uint64_t> values;
@@ -119,13 +130,14 @@ TEST(SpecAttributePage, IsSplitIntoBytes) {
   const unsigned char bytes[] = {5,    0,    0,    0,    0,    0,    0,    0,    0,
                                  0,    0,    0,    0,    0,    0,    0,  // page 5, rank 0, octcode
                                  2,    0,    0,    0,    0,    0,    0,    0,     // 2 triangles
-                                 0xff, 0x83, 0xff, 0x00, 0xff, 0x00, 0xff, 0x80,  // links
+                                 0xff, 0x02, 0xff, 0x00, 0xff, 0x00, 0xff, 0x00,  // pages
+                                 0xff, 0x05, 0xff, 0x00,                          // blocks
                                  0,    10,   0,    20,   0,    30,   0,    255,  0,
                                  40,   0,    50,   0,    60,   0,    254,         // corners 0 and 1
                                  0,    70,   0,    80,   0,    90,   0,    253};  // corner 2
   const SpecAttributeLists found =
       decode_attribute_page(std::as_bytes(std::span(bytes)), 5, header);
-  EXPECT_EQ(found.links, (std::vector<std::uint32_t>{kNoBlock, 0x80000083}));
+  EXPECT_EQ(found.links, (std::vector<SpecLink>{kNoBlock, spec_link(true, 2, 5)}));
   EXPECT_EQ(found.colours, (std::vector<SpecColours>{
                                {}, {{{10, 20, 30, 255}, {40, 50, 60, 254}, {70, 80, 90, 253}}}}));
 }
@@ -156,7 +168,7 @@ std::string refusal_of_page(const std::function<void(ComposedPage&)>& change) {
   return {};
 }
 
-std::string refusal_of_link(std::uint32_t link) {
+std::string refusal_of_link(SpecLink link) {
   return refusal_of_page([link](ComposedPage& page) { page.links[7] = link; });
 }
 
@@ -189,17 +201,13 @@ TEST(SpecAttributePage, IsRefusedIfItDoesNotEndWithItsStreams) {
 
 TEST(SpecAttributePage, IsRefusedIfALinkDoesNotHaveTheFormOfOneToABlock) {
   EXPECT_EQ(refusal_of_link(kNoBlock), "");
-  for (const std::uint32_t link : {0x00000042u, 0x7fffffffu, 0x00000000u})
-    EXPECT_EQ(refusal_of_link(link), "a link to a node");
-  // Pages 0 to 2 are distance pages, page 3 has caps.
-  EXPECT_EQ(refusal_of_link(0x80000000 | (2 * 64 + 63)), "");
-  for (const std::uint32_t link :
-       {0x80000000 | (3 * 64 + 2), 0x80000000 | (6 * 64 + 2), kNoBlock - 1})
+  // Pages 0 to 2 are distance pages, page 3 has caps. A page of 4 KiB has up to 16 blocks.
+  EXPECT_EQ(refusal_of_link(spec_link(true, 2, 15)), "");
+  for (const SpecLink link :
+       {spec_link(true, 3, 0), spec_link(true, 6, 0), spec_link(true, 0xffffffff, 0)})
     EXPECT_EQ(refusal_of_link(link), "a link beyond the distance pages");
-  // A head takes two slots.
-  EXPECT_EQ(refusal_of_link(0x80000000 | (64 + 2)), "");
-  for (const std::uint32_t link : {0x80000000u, 0x80000001u, 0x80000000 | (2 * 64 + 1)})
-    EXPECT_EQ(refusal_of_link(link), "a link into a page's head");
+  for (const SpecLink link : {spec_link(true, 2, 16), spec_link(true, 0, 0xffff)})
+    EXPECT_EQ(refusal_of_link(link), "a link beyond the blocks of a page");
 }
 
 }  // namespace

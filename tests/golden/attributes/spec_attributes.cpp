@@ -23,12 +23,10 @@ std::uint64_t triangles_of_page(std::uint64_t rank, const SpecHeader& header) {
 }
 
 // By its form, a link leads to a block of a distance page.
-void check_link(std::uint32_t link, const SpecHeader& header) {
+void check_link(SpecLink link, const SpecHeader& header) {
   if (link == kNoBlock) return;
-  const std::uint32_t slots = header.page_bytes / 64, place = link & 0x7fffffff;
-  require(link >> 31 == 1, "a link to a node");
-  require(place / slots < header.c(), "a link beyond the distance pages");
-  require(place % slots >= 1 + (header.page_bytes + 32767) / 32768, "a link into a page's head");
+  require(page_of_link(link) < header.c(), "a link beyond the distance pages");
+  require((link & 0xffff) < header.page_bytes / 256, "a link beyond the blocks of a page");
 }
 
 std::vector<SpecUvs> uvs_of(const std::vector<float>& coordinates) {
@@ -58,12 +56,15 @@ SpecAttributeLists decode_attribute_page(std::span<const std::byte> raw, std::ui
 
   const std::size_t count = head.triangle_count;
   SpecAttributeLists page;
-  page.links = streams.byte_split<std::uint32_t>(count);
+  const auto pages = streams.byte_split<std::uint32_t>(count);
+  const auto blocks = streams.byte_split<std::uint16_t>(count);
+  for (std::size_t i = 0; i < count; ++i)
+    page.links.push_back(spec_link(true, pages[i], blocks[i]));
   if (header.has_attribute(1)) page.colours = streams.byte_split<SpecColours>(count);
   if (header.has_attribute(2)) page.uvs = uvs_of(streams.byte_split<float>(6 * count));
   if (header.has_attribute(3)) page.values = streams.byte_split<std::uint64_t>(count);
   require(streams.empty(), "the page is too long");
-  for (const std::uint32_t link : page.links) check_link(link, header);
+  for (const SpecLink link : page.links) check_link(link, header);
   return page;
 }
 

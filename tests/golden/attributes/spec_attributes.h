@@ -12,7 +12,7 @@
 namespace planetree::golden {
 
 /// Link of an index that no block has.
-inline constexpr std::uint32_t kNoBlock = 0xffffffff;
+inline constexpr SpecLink kNoBlock = spec_link(true, 0xffffffff, 0xffff);
 
 using SpecColour = std::array<std::uint8_t, 4>;  ///< red, green, blue and alpha
 using SpecUv = std::array<float, 2>;             ///< texture coordinates u and v
@@ -21,7 +21,7 @@ using SpecUvs = std::array<SpecUv, 3>;           ///< of the corners
 
 /// Attributes in the order of indices. A list is empty if the file does not have that attribute.
 struct SpecAttributeLists {
-  std::vector<std::uint32_t> links;
+  std::vector<SpecLink> links;
   std::vector<SpecColours> colours;
   std::vector<SpecUvs> uvs;
   std::vector<std::uint64_t> values;  ///< bits, whatever the type is
@@ -39,7 +39,7 @@ class SpecAttributes {
 
   /// Number of indices that have attributes.
   std::uint64_t size() const { return lists_.links.size(); }
-  std::uint32_t link(std::uint64_t index) const { return lists_.links.at(index); }
+  SpecLink link(std::uint64_t index) const { return lists_.links.at(index); }
   const SpecColours& colours(std::uint64_t index) const { return lists_.colours.at(index); }
   const SpecUvs& uvs(std::uint64_t index) const { return lists_.uvs.at(index); }
   /// The bits of a value. `value_kind` of the header tells their type.

@@ -26,8 +26,8 @@ namespace planetree::golden {
 namespace {
 
 // The link of the block that has each index, by the tree.
-std::map<std::uint64_t, std::uint32_t> links_by_tree(const SpecFile& file) {
-  std::map<std::uint64_t, std::uint32_t> links;
+std::map<std::uint64_t, SpecLink> links_by_tree(const SpecFile& file) {
+  std::map<std::uint64_t, SpecLink> links;
   const SpecTree tree(file);
   for (const SpecPage& page : tree.pages())
     for (const auto& [link, block] : page.blocks)
@@ -36,7 +36,7 @@ std::map<std::uint64_t, std::uint32_t> links_by_tree(const SpecFile& file) {
 }
 
 void expect_links_to_blocks(const SpecFile& file) {
-  const std::map<std::uint64_t, std::uint32_t> expected = links_by_tree(file);
+  const std::map<std::uint64_t, SpecLink> expected = links_by_tree(file);
   const SpecAttributes attributes(file);
   ASSERT_EQ(attributes.size(), file.header().indices());
   ASSERT_EQ(expected.size(), file.header().triangle_count);
@@ -176,17 +176,17 @@ TEST(SpecAttributeFields, AreRefusedBeyondTheirRanges) {
   for (const std::size_t at : {0, 1})
     EXPECT_EQ(refusal_of_model([at](ModelRecord& model) { model.attribute_reserved[at] = 1; }),
               "reserved bytes of attributes");
-  for (const std::size_t at : {0, 31})
+  for (const std::size_t at : {0, 255})
     EXPECT_EQ(refusal_of_header([at](storage::FileHeader& header) {
-                reinterpret_cast<std::byte*>(&header)[720 + at] = std::byte{1};
+                reinterpret_cast<std::byte*>(&header)[760 + at] = std::byte{1};
               }),
               "reserved bytes of the header");
 }
 
-// "Page keys": the octcode of an attribute page is 0, and its ordinal is its rank.
+// "Page keys": the octcode of an attribute page is 0.
 TEST(SpecAttributeFields, AreKeysOfAttributePages) {
   const std::uint32_t first = SpecFile(read_file(painted_sample().ptree_path())).header().a();
-  const auto opens_with = [first](const std::function<void(storage::PageEntry&)>& change) {
+  const auto opens_with = [first](const std::function<void(storage::DirectoryPage&)>& change) {
     storage::FileImage image(read_file(painted_sample().ptree_path()));
     image.change_entry(first + 1, change);
     image.seal();
@@ -197,9 +197,8 @@ TEST(SpecAttributeFields, AreKeysOfAttributePages) {
       return false;
     }
   };
-  EXPECT_TRUE(opens_with([](storage::PageEntry&) {}));
-  EXPECT_FALSE(opens_with([](storage::PageEntry& entry) { entry.octcode = 1; }));
-  EXPECT_FALSE(opens_with([](storage::PageEntry& entry) { entry.ordinal = 2; }));
+  EXPECT_TRUE(opens_with([](storage::DirectoryPage&) {}));
+  EXPECT_FALSE(opens_with([](storage::DirectoryPage& entry) { entry.octcode = 1; }));
 }
 
 }  // namespace

@@ -23,8 +23,9 @@ void append_split(Bytes& raw, const std::vector<T>& elements) {
     for (std::size_t i = 0; i < elements.size(); ++i) raw.push_back(bytes[i * sizeof(T) + k]);
 }
 
-std::uint32_t link_of(std::uint32_t i) {
-  return i == 3 ? kNoLink : LinkFormat(kPageBytes).make(true, i % kTreePages, 2 + i);
+StoredLink link_of(std::uint32_t i) {
+  if (i == 3) return kNoStoredLink;
+  return {i % kTreePages, static_cast<std::uint16_t>(i)};
 }
 std::array<Color, 3> colors_of(std::uint32_t i) {
   const auto byte = [i](std::uint32_t k) { return static_cast<std::uint8_t>(12 * i + k); };
@@ -41,17 +42,20 @@ Bytes page_of(AttributeShape shape) {
   Bytes raw(sizeof(AttributePageHead));
   const AttributePageHead head{kPage, 1, 0, kCount, 0};
   std::memcpy(raw.data(), &head, sizeof head);
-  std::vector<std::uint32_t> links;
+  std::vector<std::uint32_t> pages;
+  std::vector<std::uint16_t> blocks;
   std::vector<std::array<Color, 3>> colors;
   std::vector<float> uvs;
   std::vector<std::uint64_t> values;
   for (std::uint32_t i = 0; i < kCount; ++i) {
-    links.push_back(link_of(i));
+    pages.push_back(link_of(i).page);
+    blocks.push_back(link_of(i).record);
     colors.push_back(colors_of(i));
     for (std::uint32_t k = 0; k < 6; ++k) uvs.push_back(uv_of(i, k));
     values.push_back(value_of(i));
   }
-  append_split(raw, links);
+  append_split(raw, pages);
+  append_split(raw, blocks);
   if (shape.has_colors()) append_split(raw, colors);
   if (shape.has_uvs()) append_split(raw, uvs);
   if (shape.has_values()) append_split(raw, values);
@@ -65,7 +69,6 @@ PageInfo info() {
   info.page_count = 2;
   info.tree_pages = kTreePages;
   info.page_number = kPage;
-  info.ordinal = 1;
   return info;
 }
 
@@ -84,7 +87,7 @@ TEST(AttributePage, RestoresWhatWasStored) {
     const AttributeView view(frame.data(), shape);
     ASSERT_EQ(view.count(), kCount);
     for (std::uint32_t i = 0; i < kCount; ++i) {
-      EXPECT_EQ(view.link(i), link_of(i));
+      EXPECT_EQ(view.link(i), i == 3 ? kNoLink : LinkFormat(kPageBytes).make_numbered(link_of(i)));
       if (shape.has_colors()) {
         EXPECT_EQ(view.colors(i), colors_of(i));
       }
@@ -120,8 +123,8 @@ TEST(AttributePage, RefusesPagesThatAreNotThoseOfTheTable) {
   other.page_number = kPage + 1;
   EXPECT_NE(fault(raw, other).find("another page's bytes"), std::string::npos);
   other = info();
-  other.ordinal = 0;
-  EXPECT_NE(fault(raw, other).find("key is not the page table's"), std::string::npos);
+  other.octcode = 1;
+  EXPECT_NE(fault(raw, other).find("octcode is not the directory's"), std::string::npos);
   other = info();
   other.first_page = kPage;
   EXPECT_NE(fault(raw, other).find("not that of its triangles"), std::string::npos);
@@ -147,14 +150,17 @@ TEST(AttributePage, RefusesWrongHeadsAndLengths) {
 }
 
 TEST(AttributePage, RefusesLinksThatLeadToNoBlockByTheirForm) {
-  const LinkFormat links(kPageBytes);
-  for (const std::uint32_t link :
-       {links.make(false, 1, 2), links.make(true, kTreePages, 2), links.make(true, 1, 1),
-        links.make(true, 1, 0), std::uint32_t{0}}) {
+  constexpr auto kBlocks = static_cast<std::uint16_t>(max_page_blocks(kPageBytes));
+  for (const StoredLink link : {StoredLink{kTreePages, 0}, StoredLink{1, kBlocks},
+                                StoredLink{kNoStoredLink.page, 0}, StoredLink{0, 0xffff}}) {
     Bytes raw = page_of({kAllAttributes});
-    for (std::size_t k = 0; k < sizeof link; ++k)
-      raw[sizeof(AttributePageHead) + k * kCount + 2] = static_cast<std::byte>(link >> (8 * k));
-    EXPECT_NE(fault(raw, info()).find("does not lead to a block"), std::string::npos) << link;
+    std::byte* const pages = raw.data() + sizeof(AttributePageHead) + 2;
+    for (std::size_t k = 0; k < sizeof link.page; ++k)
+      pages[k * kCount] = static_cast<std::byte>(link.page >> (8 * k));
+    for (std::size_t k = 0; k < sizeof link.record; ++k)
+      pages[(sizeof link.page + k) * kCount] = static_cast<std::byte>(link.record >> (8 * k));
+    EXPECT_NE(fault(raw, info()).find("does not lead to a block"), std::string::npos)
+        << link.page << ' ' << link.record;
   }
 }
 

@@ -12,7 +12,8 @@ ChunkedTree::ChunkedTree(const Soup& soup, std::uint64_t chunk_triangles, std::u
   shape.float64 = mesh.float64();
   for (const Chunk& chunk : above.chunks) {
     Triangles triangles = *runs->read(chunk.from, chunk.to);
-    auto built = build_chunk(triangles, mesh.frame.centre(), shape, page_bytes, file);
+    auto built = build_chunk(triangles, above.chunks.size() == 1, mesh.frame.centre(), shape,
+                             page_bytes, file);
     if (!built) std::abort();
     chunks.push_back(*std::move(built));
   }

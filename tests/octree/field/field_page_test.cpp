@@ -21,7 +21,6 @@ class FieldPage : public testing::Test {
     info.first_page = kFirstPage;
     info.page_count = sample_.field.page_count();
     info.page_number = kFirstPage + index;
-    info.ordinal = index;
     return info;
   }
   std::size_t count(std::uint32_t index) const {
@@ -59,8 +58,8 @@ TEST_F(FieldPage, RefusesPagesThatAreNotThoseOfTheTable) {
   other.page_number = kFirstPage + 1;
   EXPECT_NE(fault(raw, other).find("another page's bytes"), std::string::npos);
   other = info(0);
-  other.ordinal = 1;
-  EXPECT_NE(fault(raw, other).find("key is not the page table's"), std::string::npos);
+  other.octcode = 1;
+  EXPECT_NE(fault(raw, other).find("octcode is not the directory's"), std::string::npos);
   other = info(0);
   other.first_page = kFirstPage - 1;
   EXPECT_NE(fault(raw, other).find("not that of its points"), std::string::npos);

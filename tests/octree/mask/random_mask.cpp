@@ -84,7 +84,7 @@ class RandomMask {
     MaskBlocks blocks{};
     blocks.count = static_cast<std::uint8_t>(1 + noise_.bits() % kMaxListed);
     std::set<std::uint32_t> links;
-    while (links.size() < blocks.count) links.insert(LinkFormat::kLeafBit | noise_.bits() % kLinks);
+    while (links.size() < blocks.count) links.insert(numbered_link(noise_.bits()));
     std::copy(links.begin(), links.end(), blocks.links.begin());
     for (unsigned i = 0; i < blocks.count; ++i)
       blocks.octants[i] = static_cast<std::uint8_t>(1 + noise_.bits() % 255);
@@ -101,8 +101,14 @@ class RandomMask {
     return slab;
   }
 
-  // Distance pages before kRandomMaskPage, in slots of the smallest page size.
-  static constexpr std::uint32_t kLinks = kRandomMaskPage * 4096 / kSlotBytes;
+  // A numbered link to a block before kRandomMaskPage, whether pages have 4 KiB or up to 1 MiB.
+  static std::uint32_t numbered_link(std::uint32_t bits) {
+    constexpr std::uint32_t kNumbers = max_page_blocks(4096), kPages = 12;
+    static_assert((kPages - 1) << 8 < kRandomMaskPage);
+    const std::uint32_t at = bits % (kNumbers * kPages);
+    return LinkFormat(1 << 20).make_numbered(
+        {at / kNumbers, static_cast<std::uint16_t>(at % kNumbers)});
+  }
 
   const unsigned levels_;
   Noise noise_;

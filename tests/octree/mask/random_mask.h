@@ -7,7 +7,7 @@
 namespace planetree::octree {
 
 /// The minimum page number of a mask from random_mask(): the blocks it lists are in pages before.
-inline constexpr std::uint32_t kRandomMaskPage = 3;
+inline constexpr std::uint32_t kRandomMaskPage = 2817;
 
 /// A mask that belongs to no model: random entries of all kinds, laid out as build_mask() does. Its
 /// lists name random blocks in pages before kRandomMaskPage, for any page size.

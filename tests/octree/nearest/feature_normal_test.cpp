@@ -28,7 +28,7 @@ Soup cone(unsigned faces) {
 
 // Work of feature_normal() along a path, with and without the coherence cache.
 struct Path {
-  explicit Path(const Soup& soup) : sample(build_sample(soup)), pages(sample) {}
+  explicit Path(const Soup& soup) : sample(build_sample(soup, 65536)), pages(sample) {}
 
   void expect_same_normals(Point at, double step) {
     const TreeInfo tree = tree_info(sample);

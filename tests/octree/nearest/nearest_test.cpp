@@ -253,31 +253,36 @@ TEST(Nearest, IntervalHoldsWithMissingPages) {
 TEST(Nearest, RefusesLinksThatMissARecord) {
   const SampleTree sample = build_sample(sphere(4), 4096);
   const SamplePages honest(sample);
-  const LinkFormat links(4096);
-  const std::uint32_t page = links.page(RawPage::of(honest.raw(0)).page_links[0]);
-  for (std::uint32_t slot = 0; slot < 64; ++slot)
-    for (const bool leaf : {false, true}) {
-      SamplePages pages = honest;
-      RawPage root = RawPage::of(honest.raw(0));
-      // Two links to one page: the second link finds the page already accessed.
-      for (std::uint32_t& link : root.page_links)
-        if (links.page(link) == page) link = links.make(leaf, page, slot);
-      root.page_links[0] = root.page_links[1] = links.make(leaf, page, slot);
-      ASSERT_TRUE(decode_page(root.bytes(), page_info(sample, 0), pages.frame(0).bytes()));
-      TraversalStats work;
-      const NearestAnswer answer =
-          nearest(tree_info(sample), Point(0, 0, 0), {}, pages.reader(), work);
-      const auto& header = pages.frame(page).header();
-      const auto* starts =
-          reinterpret_cast<const std::uint64_t*>(pages.frame(page).data() + kSlotBytes);
-      const bool node_there = slot >= header.first_node_slot && slot < header.first_block_slot &&
-                              (slot - header.first_node_slot) % kNodeSlots == 0;
-      const bool there = leaf ? (*starts >> slot & 1) != 0 : node_there;
-      if (!there) {
-        EXPECT_EQ(answer.status, Status::kDegraded) << slot;
-      }
-      EXPECT_LT(answer.lower, answer.upper);
+  const std::uint32_t page = RawPage::of(honest.raw(0)).linked_pages[0];
+  const std::uint32_t most = max_page_nodes(4096, sample.shape);
+  ASSERT_LT(honest.frame(page).header().node_count, most);
+  for (std::uint16_t number = 0; number < most; ++number) {
+    SamplePages pages = honest;
+    RawPage root = RawPage::of(honest.raw(0));
+    // Two links to one page: the second link finds the page already accessed.
+    root.linked_pages[1] = page;
+    for (std::size_t i = 0; i < root.linked_pages.size(); ++i)
+      if (root.linked_pages[i] == page) root.linked_nodes[i] = number;
+    ASSERT_TRUE(decode_page(root.bytes(), page_info(sample, 0), pages.frame(0).bytes()));
+    TraversalStats work;
+    const NearestAnswer answer =
+        nearest(tree_info(sample), Point(0, 0, 0), {}, pages.reader(), work);
+    if (number >= honest.frame(page).header().node_count) {
+      EXPECT_EQ(answer.status, Status::kDegraded) << number;
     }
+    EXPECT_LT(answer.lower, answer.upper);
+  }
+}
+
+// The header of a forged file may state that the tree is one block.
+TEST(Nearest, RefusesABlockAsTheRootOfATreeWithNodes) {
+  const SampleTree sample = build_sample(sphere(4), 4096);
+  SamplePages pages(sample);
+  TreeInfo info = tree_info(sample);
+  info.root_link = root_link_of(4096, 0, 0);
+  TraversalStats work;
+  EXPECT_EQ(nearest(info, Point(0, 0, 0), {}, pages.reader(), work).status, Status::kDegraded);
+  EXPECT_EQ(work.blocks, 0u);
 }
 
 TEST(Nearest, EndsOnForgedRecordCounts) {

@@ -23,7 +23,7 @@ Forms forms_of(const Soup& soup) {
     expected[sample.mesh.index(i)] = sample.mesh.corners(i);
   Forms forms;
   const LinkFormat links(sample.plan.page_bytes);
-  std::uint32_t next = 0;  // end of the block before
+  std::uint32_t next = 0;  // behind the block before
   std::vector<bool> found(soup.size());
   each_block(sample, SamplePages(sample), [&](const BlockView& block, std::uint32_t link) {
     const BlockHeader& header = block.header();
@@ -33,7 +33,7 @@ Forms forms_of(const Soup& soup) {
     if (links.page(link) == links.page(next)) {
       EXPECT_EQ(link, next);
     }
-    next = link + block.slots();
+    next = link + 1;
     ++(header.compact() ? forms.compact : near ? forms.with_many_vertices : forms.with_far_indices);
     for (unsigned i = 0; i < count; ++i) {
       const auto id = static_cast<std::size_t>(block.id(i));

@@ -30,13 +30,51 @@ TEST(LinkFormat, LimitsPageCountByPageSize) {
   EXPECT_EQ(LinkFormat(262144).max_pages(), 1u << 19);
 }
 
-TEST(FrameHead, HasABitForEverySlot) {
+TEST(LinkFormat, RoundTripsNumberedLinks) {
   for (const std::uint32_t page_bytes : kPageSizes) {
-    const std::size_t bits = (frame_head_slots(page_bytes) - 1) * kSlotBytes * 8;
-    EXPECT_GE(bits, page_bytes / kSlotBytes);
+    const LinkFormat links(page_bytes);
+    const auto last = static_cast<std::uint16_t>(max_page_blocks(page_bytes) - 1);
+    for (const std::uint16_t number : {std::uint16_t{0}, std::uint16_t{1}, last}) {
+      const std::uint32_t link = links.make_numbered({links.max_pages() - 1, number});
+      EXPECT_TRUE(LinkFormat::is_leaf(link));
+      EXPECT_EQ(links.page(link), links.max_pages() - 1);
+      EXPECT_EQ(links.number(link), number);
+    }
+  }
+}
+
+TEST(RootLink, LeadsToTheFirstRecordOfTheFirstPage) {
+  for (const std::uint32_t page_bytes : kPageSizes) {
+    const LinkFormat links(page_bytes);
+    const std::uint32_t node = root_link_of(page_bytes, 7, 1),
+                        block = root_link_of(page_bytes, 7, 0);
+    EXPECT_EQ(node, node_link(page_bytes, {}, {7, 0}));
+    EXPECT_EQ(block, links.make(true, 7, links.slot(node)));
+  }
+}
+
+TEST(FrameHead, HasASlotNumberForEveryBlock) {
+  for (const std::uint32_t page_bytes : kPageSizes) {
+    const std::size_t slots = page_bytes / kSlotBytes - frame_head_slots(page_bytes);
+    EXPECT_LE(slots / BlockShape{}.slots(1, true), max_page_blocks(page_bytes));
+    EXPECT_LE(max_page_blocks(page_bytes) * sizeof(std::uint16_t),
+              (frame_head_slots(page_bytes) - 1) * kSlotBytes);
   }
   EXPECT_EQ(frame_head_slots(4096), 2u);
-  EXPECT_EQ(frame_head_slots(262144), 9u);
+  EXPECT_EQ(frame_head_slots(65536), 9u);
+  EXPECT_EQ(frame_head_slots(262144), 33u);
+}
+
+TEST(FrameHead, LeavesSlotsForTheNodesOfAPage) {
+  for (const std::uint32_t page_bytes : kPageSizes)
+    for (const BlockShape& shape : {BlockShape{}, BlockShape{.moments = true}}) {
+      const auto last = static_cast<std::uint16_t>(max_page_nodes(page_bytes, shape) - 1);
+      const LinkFormat links(page_bytes);
+      const std::uint32_t link = node_link(page_bytes, shape, {5, last});
+      EXPECT_EQ(links.page(link), 5u);
+      EXPECT_LE(links.slot(link) + shape.node_slots(), page_bytes / kSlotBytes);
+      EXPECT_GT(links.slot(link) + 2 * shape.node_slots(), page_bytes / kSlotBytes);
+    }
 }
 
 TEST(BlockShape, SlotCountsMatchTheSpecification) {

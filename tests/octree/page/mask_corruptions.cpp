@@ -36,6 +36,14 @@ std::size_t find_node(const RawMaskPage& page,
   return 0;
 }
 
+// Kinds of the first nodes.
+std::vector<std::uint8_t> nodes_before(const RawMaskPage& page, std::size_t node) {
+  std::vector<std::uint8_t> kinds;
+  for (const std::uint8_t kind : page.kinds)
+    if (kind <= kNodeWithLink && kinds.size() < node) kinds.push_back(kind);
+  return kinds;
+}
+
 std::size_t node_with_family(const RawMaskPage& page) {
   return find_node(
       page, [&](std::size_t i, std::uint8_t kind) { return kind == kNode && page.grey[i] != 0; });
@@ -89,14 +97,14 @@ std::vector<MaskCorruption> head_corruptions() {
       {"the page is shorter than its counts say", [](P& p, F&) { p.planes.clear(); }},
       {"the page is shorter than its counts say", [](P& p, F&) { p.head.plane_count = 0xffff; }},
       {"the page is shorter than its counts say", [](P& p, F&) { p.least.pop_back(); }},
-      {"the page is shorter than its counts say", [](P& p, F&) { p.block_links.pop_back(); }},
+      {"the page is shorter than its counts say", [](P& p, F&) { p.block_pages.pop_back(); }},
       {"the page is longer than its counts say", [](P& p, F&) { p.planes.push_back(0); }},
       {"the page is longer than its counts say", [](P& p, F&) { p.block_octants.push_back(1); }},
       {"the page is longer than its counts say", [](P& p, F&) { grow(p.head.plane_count, -1); }},
       {"it is another page's bytes", [](P& p, F&) { ++p.head.page_number; }},
       {"it is another page's bytes", [](P&, F& f) { --f.page_number; }},
-      {"its key is not the page table's", [](P&, F& f) { f.octcode ^= 1; }},
-      {"its key is not the page table's", [](P& p, F&) { ++p.head.ordinal; }},
+      {"its octcode is not the directory's", [](P&, F& f) { f.octcode ^= 1; }},
+      {"its ordinal is not 0", [](P& p, F&) { ++p.head.ordinal; }},
       {"its records do not fit a page",
        [](P& p, F&) {
          p.head.plane_count = static_cast<std::uint16_t>(p.head.plane_count + 60);
@@ -177,27 +185,34 @@ std::vector<MaskCorruption> node_corruptions() {
       {"its page links do not add up",
        [](P& p, F&) {
          grow(p.head.page_link_count, -1);
-         p.page_links.pop_back();
+         p.linked_pages.pop_back();
+         p.linked_records.pop_back();
        }},
       {"its page links do not add up",
        [](P& p, F&) {
          grow(p.head.page_link_count, 1);
-         p.page_links.push_back(p.page_links[0]);
+         p.linked_pages.push_back(p.linked_pages[0]);
+         p.linked_records.push_back(p.linked_records[0]);
        }},
+      {"a link leads to a page that cannot be below it",
+       [](P& p, F& f) { p.linked_pages[0] = f.page_number - f.first_page; }},
+      {"a link leads to a page that cannot be below it",
+       [](P& p, F& f) { p.linked_pages.back() = f.page_count; }},
+      {"a link leads to a page that cannot be below it",
+       [](P& p, F&) { p.linked_pages[0] = 0xffffffff; }},
       {"a link leads to a page that cannot be below it",
        [](P& p, F& f) {
-         p.page_links[0] = MaskLinkFormat(f.page_bytes).make(f.page_number - f.first_page, 20);
+         // The last record that a page can have, of a family of several.
+         const std::size_t at = find_node(p, [&](std::size_t i, std::uint8_t kind) {
+           return kind == kNodeWithLink && std::popcount(p.grey[i]) > 1;
+         });
+         const auto before = static_cast<std::size_t>(std::ranges::count_if(
+             nodes_before(p, at), [](std::uint8_t kind) { return kind == kNodeWithLink; }));
+         p.linked_records[before] =
+             static_cast<std::uint16_t>(f.page_bytes / 8 - 1 - mask_head_slots(f.page_bytes));
        }},
       {"a link leads to a page that cannot be below it",
-       [](P& p, F& f) {
-         p.page_links.back() = MaskLinkFormat(f.page_bytes).make(f.page_count, 20);
-       }},
-      {"a link leads to a page that cannot be below it",
-       [](P& p, F&) { p.page_links[0] = 0xffffffff; }},
-      {"a link leads to a page that cannot be below it",
-       [](P& p, F& f) {
-         for (std::uint32_t& link : p.page_links) link |= f.page_bytes / 8 - 1;
-       }},
+       [](P& p, F&) { p.linked_records.back() = 0xffff; }},
   };
 }
 

@@ -25,7 +25,8 @@ void lengthen_lists(RawMaskPage& page) {
   const std::size_t blocks = page.block_counts.size() * kMaxListed;
   page.head.block_link_count = static_cast<std::uint16_t>(blocks);
   page.block_octants.resize(blocks, 1);
-  page.block_links.resize(blocks);
+  page.block_pages.resize(blocks);
+  page.block_numbers.resize(blocks);
 }
 
 void grow(std::uint16_t& count, int by) { count = static_cast<std::uint16_t>(count + by); }
@@ -54,7 +55,8 @@ std::vector<MaskCorruption> mask_list_corruptions() {
        [](P& p, F&) {
          grow(p.head.block_link_count, 1);
          p.block_octants.push_back(1);
-         p.block_links.push_back(0xffffffff);
+         p.block_pages.push_back(0xffffffff);
+         p.block_numbers.push_back(0);
        }},
       {"a slab's direction is out of range", [](P& p, F&) { p.slab_directions[0] |= 3; }},
       {"a slab's direction is out of range",
@@ -69,22 +71,26 @@ std::vector<MaskCorruption> mask_list_corruptions() {
       {"a listed block has no octant", [](P& p, F&) { p.block_octants[0] = 0; }},
       {"a listed block has no octant", [](P& p, F&) { p.block_octants.back() = 0; }},
       {"a list has a link that leads to no block",
-       [](P& p, F&) { p.block_links[0] &= ~LinkFormat::kLeafBit; }},
+       [](P& p, F& f) { p.block_pages.back() = f.tree_pages; }},
+      {"a list has a link that leads to no block",
+       [](P& p, F&) { p.block_pages.back() = 0xffffffff; }},
       {"a list has a link that leads to no block",
        [](P& p, F& f) {
-         p.block_links.back() = LinkFormat(f.page_bytes).make(true, f.first_page, 0);
+         p.block_numbers[0] = static_cast<std::uint16_t>(max_page_blocks(f.page_bytes));
        }},
       {"a list has a link that leads to no block",
-       [](P& p, F&) { p.block_links.back() = 0xffffffff; }},
+       [](P& p, F&) { p.block_numbers.back() = 0xffff; }},
       {"the blocks of a list are not in order",
        [](P& p, F&) {
          const std::size_t at = first_list_of_several(p);
-         std::swap(p.block_links[at], p.block_links[at + 1]);
+         std::swap(p.block_pages[at], p.block_pages[at + 1]);
+         std::swap(p.block_numbers[at], p.block_numbers[at + 1]);
        }},
       {"the blocks of a list are not in order",
        [](P& p, F&) {
          const std::size_t at = first_list_of_several(p);
-         p.block_links[at + 1] = p.block_links[at];
+         p.block_pages[at + 1] = p.block_pages[at];
+         p.block_numbers[at + 1] = p.block_numbers[at];
        }},
   };
 }

@@ -153,7 +153,8 @@ TEST(MaskLists, ArePresentInAMaskOfOneCell) {
   EXPECT_EQ(raw.least[0], 0);
   EXPECT_EQ(raw.higher[0], 1);
   EXPECT_EQ(raw.block_octants, std::vector<std::uint8_t>{0xff});
-  EXPECT_EQ(raw.block_links, std::vector{tree.tree->info().root_link});
+  EXPECT_EQ(raw.block_pages, std::vector<std::uint32_t>{0});
+  EXPECT_EQ(raw.block_numbers, std::vector<std::uint16_t>{0});
 }
 
 TEST(MaskLists, DoNotDependOnThreads) {

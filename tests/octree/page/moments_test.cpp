@@ -81,8 +81,8 @@ TEST(Multipoles, ErrorBoundsHold) {
     double worst = 0;
     for (std::size_t i = 0; i < sample.tree.nodes.size(); ++i) {
       const WideNode& wide = sample.tree.nodes[i];
-      const Node& node = *reinterpret_cast<const Node*>(
-          pages.record(LinkFormat(65536), sample.plan.node_links[i]));
+      const Node& node =
+          *reinterpret_cast<const Node*>(pages.node_record(sample, sample.plan.node_links[i]));
       for (int k = 0; k < 12; ++k) {
         const double reach = std::ldexp(1.0, -static_cast<int>(noise.bits() % 6));
         const Vec3 by = noise.point(-2 * reach, 2 * reach);
@@ -123,7 +123,7 @@ TEST(Multipoles, AreUnknownInsideTheBox) {
   const SampleTree sample = build_sample(height_field(8), 65536, 0, true);
   SamplePages pages(sample);
   const Node& root =
-      *reinterpret_cast<const Node*>(pages.record(LinkFormat(65536), sample.plan.node_links[0]));
+      *reinterpret_cast<const Node*>(pages.node_record(sample, sample.plan.node_links[0]));
   std::array<Multipoles::Share, kFanOut> shares;
   Multipoles(sample.mesh.corners(0)[0], tree_info(sample)).shares(root, shares);
   EXPECT_TRUE(std::any_of(shares.begin(), shares.begin() + root.child_count,
@@ -134,7 +134,7 @@ TEST(Multipoles, AreUnknownInsideTheBox) {
 TEST(Multipoles, AreUnknownWhereTheMiddleOfABoxOverflows) {
   const SampleTree sample = build_sample(height_field(8), 65536, 0, true);
   SamplePages pages(sample);
-  const std::byte* root = pages.record(LinkFormat(65536), sample.plan.node_links[0]);
+  const std::byte* root = pages.node_record(sample, sample.plan.node_links[0]);
   NodeWithMoments copy(root);
   for (unsigned axis = 0; axis < 3; ++axis) {
     copy.node.box.lower[axis] = 3e38F;
@@ -150,7 +150,7 @@ TEST(Multipoles, AreUnknownWhereTheMiddleOfABoxOverflows) {
 TEST(Multipoles, AreUnknownWhereTheMomentsAre) {
   const SampleTree sample = build_sample(height_field(8), 65536, 0, true);
   SamplePages pages(sample);
-  const std::byte* root = pages.record(LinkFormat(65536), sample.plan.node_links[0]);
+  const std::byte* root = pages.node_record(sample, sample.plan.node_links[0]);
   NodeWithMoments copy(root);
   const Multipoles multipoles(Point(0, 0, 9), tree_info(sample));
   std::array<Multipoles::Share, kFanOut> shares;
@@ -170,7 +170,7 @@ TEST(Moments, RoundTripThroughAPage) {
   ASSERT_GT(pages.size(), 4u);
   for (std::size_t i = 0; i < sample.tree.nodes.size(); ++i) {
     const Node& node =
-        *reinterpret_cast<const Node*>(pages.record(LinkFormat(4096), sample.plan.node_links[i]));
+        *reinterpret_cast<const Node*>(pages.node_record(sample, sample.plan.node_links[i]));
     EXPECT_EQ(std::memcmp(&NodeMoments::of(node), &sample.tree.moments[i], sizeof(NodeMoments)), 0);
   }
 }

@@ -6,8 +6,10 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "octree/nearest/nearest.h"
+#include "octree/page/block_table.h"
 #include "octree/page/frame.h"
 #include "tests/octree/page/raw_page.h"
 #include "tests/octree/support/sample_tree.h"
@@ -136,14 +138,13 @@ TEST(PageDecoder, CoversFloat64WideIdsAndManyPages) {
 
 // Number of links that lead from `page` to other pages, by the page plan.
 std::size_t links_out_of(const SampleTree& sample, std::uint32_t page) {
-  const LinkFormat links(sample.plan.page_bytes);
   std::size_t count = 0;
   for (const std::uint32_t at : sample.plan.pages[page].nodes) {
     const WideNode& node = sample.tree.nodes[at];
     for (unsigned i = 0; i < node.child_count; ++i) {
       const WideChild& child = node.children[i];
       const auto& of_kind = child.block ? sample.plan.block_links : sample.plan.node_links;
-      if (links.page(of_kind[child.index]) != page) ++count;
+      if (of_kind[child.index].page != page) ++count;
     }
   }
   return count;
@@ -167,17 +168,25 @@ TEST(PageDecoder, WritesFrameContentsToTheHeader) {
   }
 }
 
-TEST(PageDecoder, MarksBlockStartsOnly) {
-  const SampleTree sample = build_sample(sphere(4), 4096);
-  const SamplePages pages(sample);
-  const LinkFormat links(sample.plan.page_bytes);
-  for (std::uint32_t page = 0; page < pages.size(); ++page) {
-    std::uint64_t expected = 0;
-    for (const std::uint32_t block : sample.plan.pages[page].blocks)
-      expected |= std::uint64_t{1} << links.slot(sample.plan.block_links[block]);
-    const auto* starts =
-        reinterpret_cast<const std::uint64_t*>(pages.frame(page).data() + kSlotBytes);
-    EXPECT_EQ(*starts, expected) << page;
+TEST(PageDecoder, ListsTheSlotsOfBlocks) {
+  for (const std::uint32_t page_bytes : {4096u, 65536u}) {
+    const SampleTree sample = build_sample(sphere(4), page_bytes);
+    const SamplePages pages(sample);
+    for (std::uint32_t page = 0; page < pages.size(); ++page) {
+      const BlockTable table(pages.frame(page).data());
+      std::uint32_t slot = pages.frame(page).header().first_block_slot;
+      std::uint16_t number = 0;
+      for (const std::uint32_t block : sample.plan.pages[page].blocks) {
+        EXPECT_EQ(table.slot(number), slot);
+        EXPECT_EQ(table.number_at(slot), number++);
+        EXPECT_EQ(table.number_at(slot + 1), std::nullopt);
+        slot += sample.block_slots[block];
+      }
+      for (std::uint32_t none = number; none < max_page_blocks(page_bytes); ++none)
+        EXPECT_EQ(table.slot(none), 0u);
+      EXPECT_EQ(table.number_at(slot), std::nullopt);
+      EXPECT_EQ(table.number_at(0), std::nullopt);
+    }
   }
 }
 

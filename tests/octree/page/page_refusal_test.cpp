@@ -65,11 +65,11 @@ std::size_t compact_block(const RawPage& page) {
                     [&](std::size_t i) { return page.triangle_counts[i] > (kCompactBit | 1); });
 }
 
-enum class From { kWhole, kUpper };
+enum class From { kWhole, kUpper, kBlock };
 
 struct Corruption {
   const char* sentence;
-  From from;  ///< which sample: a page with the whole tree, or one with links to others
+  From from;  ///< which sample: a page with the whole tree, one with links to others, one block
   void (*corrupt)(RawPage&, PageInfo&);
 };
 
@@ -80,14 +80,12 @@ std::vector<Corruption> head_corruptions() {
   return {
       {"the page holds no record", From::kWhole,
        [](P& p, F&) { p.head.node_count = p.head.block_count = 0; }},
-      {"the counts of subtree roots do not fit", From::kWhole,
-       [](P& p, F&) { p.head.root_node_count = 0; }},
-      {"the counts of subtree roots do not fit", From::kWhole,
-       [](P& p, F&) {
-         p.head.root_node_count = static_cast<std::uint16_t>(p.head.node_count + 1);
-       }},
-      {"the counts of subtree roots do not fit", From::kWhole,
-       [](P& p, F&) { p.head.root_block_count = 0xffff; }},
+      {"the count of subtree roots does not fit", From::kWhole,
+       [](P& p, F&) { p.head.root_count = 0; }},
+      {"the count of subtree roots does not fit", From::kWhole,
+       [](P& p, F&) { p.head.root_count = static_cast<std::uint16_t>(p.head.node_count + 1); }},
+      {"the count of subtree roots does not fit", From::kBlock,
+       [](P& p, F&) { p.head.root_count = 1; }},
       {"the counts of children do not fit", From::kWhole,
        [](P& p, F&) {
          p.head.child_count = static_cast<std::uint16_t>(kFanOut * p.head.node_count + 1);
@@ -111,8 +109,7 @@ std::vector<Corruption> head_corruptions() {
       {"the page is longer than its counts say", From::kWhole,
        [](P& p, F&) { p.id_steps.push_back(0); }},
       {"it is another page's bytes", From::kWhole, [](P& p, F&) { ++p.head.page_number; }},
-      {"its key is not the page table's", From::kWhole, [](P&, F& f) { f.octcode ^= 1; }},
-      {"its key is not the page table's", From::kWhole, [](P& p, F&) { ++p.head.ordinal; }},
+      {"its octcode is not the directory's", From::kWhole, [](P&, F& f) { f.octcode ^= 1; }},
       {"its records do not fit a page", From::kWhole, [](P&, F& f) { f.page_bytes = 4096; }},
   };
 }
@@ -155,8 +152,8 @@ std::vector<Corruption> node_corruptions() {
       {"a child's moments are out of range", From::kWhole,
        [](P& p, F&) { p.child_second_moments[0] = 0x007f; }},
       {"a child is of unknown kind", From::kWhole, [](P& p, F&) { set_kind(p, 0, 0, 3); }},
-      {"its children do not add up", From::kWhole,
-       [](P& p, F&) { p.head.root_block_count = p.head.block_count; }},
+      {"a block has no parent", From::kBlock, [](P&, F& f) { f.page_count = 2; }},
+      {"a block has no parent", From::kBlock, [](P& p, F&) { p.repeat_block(); }},
       {"its children do not add up", From::kWhole,
        [](P& p, F&) { turn_kinds(p, p.child_counts.size() - 1, 1, 0); }},
       {"its children do not add up", From::kWhole,
@@ -184,9 +181,17 @@ std::vector<Corruption> node_corruptions() {
        }},
       {"its page links do not add up", From::kWhole, [](P& p, F&) { set_kind(p, 0, 0, 2); }},
       {"a link leads to a page that cannot be below it", From::kUpper,
-       [](P& p, F&) { p.page_links[0] = LinkFormat(4096).make(false, 0, 2); }},
+       [](P& p, F&) { p.linked_pages[0] = 0; }},
       {"a link leads to a page that cannot be below it", From::kUpper,
-       [](P& p, F& f) { p.page_links[0] = LinkFormat(4096).make(false, f.page_count, 2); }},
+       [](P& p, F& f) { p.linked_pages[0] = f.page_count; }},
+      {"a link leads to a page that cannot be below it", From::kUpper,
+       [](P& p, F&) { p.linked_pages.back() = 0xffffffff; }},
+      {"a link leads to a node that no page can have", From::kUpper,
+       [](P& p, F& f) {
+         p.linked_nodes[0] = static_cast<std::uint16_t>(max_page_nodes(f.page_bytes, f.shape));
+       }},
+      {"a link leads to a node that no page can have", From::kUpper,
+       [](P& p, F&) { p.linked_nodes.back() = 0xffff; }},
   };
 }
 
@@ -282,14 +287,17 @@ Soup holed_sphere(unsigned levels) {
 TEST(PageRefusal, ReportsFaultAndPage) {
   const SampleTree whole = build_sample(holed_sphere(3), 262144, 0, true);
   const SampleTree upper = build_sample(holed_sphere(4), 4096, 0, true);
-  const SamplePages whole_pages(whole), upper_pages(upper);
+  const SampleTree block = build_sample(sphere(0), 4096);
+  const SamplePages whole_pages(whole), upper_pages(upper), block_pages(block);
   ASSERT_EQ(whole_pages.size(), 1u);
-  ASSERT_FALSE(RawPage::of(upper_pages.raw(0), upper.shape).page_links.empty());
+  ASSERT_FALSE(RawPage::of(upper_pages.raw(0), upper.shape).linked_pages.empty());
   for (const Corruption& corruption : all_corruptions()) {
     SCOPED_TRACE(corruption.sentence);
-    const bool from_whole = corruption.from == From::kWhole;
-    PageInfo info = page_info(from_whole ? whole : upper, 0);
-    RawPage page = RawPage::of((from_whole ? whole_pages : upper_pages).raw(0), info.shape);
+    const auto of = [&](const auto& a, const auto& b, const auto& c) -> const auto& {
+      return corruption.from == From::kWhole ? a : corruption.from == From::kUpper ? b : c;
+    };
+    PageInfo info = page_info(of(whole, upper, block), 0);
+    RawPage page = RawPage::of(of(whole_pages, upper_pages, block_pages).raw(0), info.shape);
     SampleFrame frame(info.page_bytes);
     ASSERT_TRUE(decode_page(page.bytes(), info, frame.bytes()));
     corruption.corrupt(page, info);

@@ -16,7 +16,8 @@ namespace planetree::octree {
 struct RawMaskPage {
   MaskPageHead head{};
   std::vector<std::uint8_t> kinds, grey, leaf, black, inverted;
-  std::vector<std::uint32_t> page_links;
+  std::vector<std::uint32_t> linked_pages;
+  std::vector<std::uint16_t> linked_records;
   std::vector<std::uint8_t> plain_corners;
   std::vector<std::int8_t> corners;
   std::vector<std::uint8_t> plane_counts;
@@ -26,7 +27,8 @@ struct RawMaskPage {
   std::vector<std::uint8_t> higher, block_counts;
   std::vector<std::uint16_t> slab_directions;
   std::vector<std::uint8_t> slab_lowers, slab_uppers, block_octants;
-  std::vector<std::uint32_t> block_links;
+  std::vector<std::uint32_t> block_pages;
+  std::vector<std::uint16_t> block_numbers;
   bool float64 = false;
 
   /// Returns the streams of `raw`, whose counts must match its length.
@@ -39,7 +41,8 @@ struct RawMaskPage {
                      list(s.leaf),
                      list(s.black),
                      list(s.inverted),
-                     list(s.page_links),
+                     list(s.linked_pages),
+                     list(s.linked_records),
                      list(s.plain_corners),
                      list(s.corners),
                      list(s.plane_counts),
@@ -53,7 +56,8 @@ struct RawMaskPage {
                      list(s.slab_lowers),
                      list(s.slab_uppers),
                      list(s.block_octants),
-                     list(s.block_links),
+                     list(s.block_pages),
+                     list(s.block_numbers),
                      float64};
     for (std::size_t i = 0; i < std::size_t{9} * s.head.plane_count; ++i)
       page.planes.push_back(s.plane_coordinate(i));
@@ -68,7 +72,8 @@ struct RawMaskPage {
     writer.byte_split(leaf);
     writer.byte_split(black);
     writer.byte_split(inverted);
-    writer.byte_split(page_links);
+    writer.byte_split(linked_pages);
+    writer.byte_split(linked_records);
     writer.byte_split(plain_corners);
     writer.byte_split(corners);
     writer.byte_split(plane_counts);
@@ -85,7 +90,8 @@ struct RawMaskPage {
     writer.byte_split(slab_lowers);
     writer.byte_split(slab_uppers);
     writer.byte_split(block_octants);
-    writer.byte_split(block_links);
+    writer.byte_split(block_pages);
+    writer.byte_split(block_numbers);
     return writer.take();
   }
 };

@@ -24,7 +24,8 @@ struct RawPage {
   std::vector<std::int16_t> child_dipoles;
   std::vector<std::int8_t> child_quadrupoles;
   std::vector<std::uint16_t> child_areas, child_second_moments;
-  std::vector<std::uint32_t> page_links;
+  std::vector<std::uint32_t> linked_pages;
+  std::vector<std::uint16_t> linked_nodes;
   std::vector<std::uint8_t> triangle_counts, vertex_counts, new_counts;
   std::vector<std::uint16_t> vertex_refs;
   std::vector<std::byte> corners;
@@ -48,7 +49,8 @@ struct RawPage {
             list(s.child_quadrupoles),
             list(s.child_areas),
             list(s.child_second_moments),
-            list(s.page_links),
+            list(s.linked_pages),
+            list(s.linked_nodes),
             list(s.triangle_counts),
             list(s.vertex_counts),
             list(s.new_counts),
@@ -57,6 +59,26 @@ struct RawPage {
             list(s.vertices32),
             list(s.first_ids32),
             list(s.id_steps32)};
+  }
+
+  /// Repeats the only block of the page. The second block refers to the vertices of the first.
+  void repeat_block() {
+    const unsigned vertex_count = vertex_counts[0];
+    ++head.block_count;
+    head.triangle_count = static_cast<std::uint16_t>(2 * head.triangle_count);
+    head.vertex_ref_count = static_cast<std::uint16_t>(vertex_count);
+    triangle_counts.push_back(triangle_counts[0]);
+    vertex_counts.push_back(vertex_counts[0]);
+    new_counts.push_back(0);
+    vertex_refs.assign(vertex_count, 1);
+    vertex_refs[0] = 0;
+    const auto repeat = [](auto& stream) {
+      const auto copy = stream;
+      stream.insert(stream.end(), copy.begin(), copy.end());
+    };
+    repeat(corners);
+    repeat(first_ids);
+    repeat(id_steps);
   }
 
   std::vector<std::byte> bytes() const {
@@ -74,7 +96,8 @@ struct RawPage {
     writer.byte_split(child_quadrupoles);
     writer.byte_split(child_areas);
     writer.byte_split(child_second_moments);
-    writer.byte_split(page_links);
+    writer.byte_split(linked_pages);
+    writer.byte_split(linked_nodes);
     writer.byte_split(triangle_counts);
     writer.byte_split(vertex_counts);
     writer.byte_split(new_counts);

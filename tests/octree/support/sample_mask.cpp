@@ -190,7 +190,6 @@ PageInfo MaskPages::info(std::uint32_t page) const {
   info.shape.float64 = float64_;
   info.page_number = first_page_ + page;
   info.octcode = plan_.pages[page].octcode;
-  info.ordinal = plan_.pages[page].ordinal;
   return info;
 }
 

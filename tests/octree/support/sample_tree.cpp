@@ -170,15 +170,16 @@ SampleTree build_sample(const Soup& soup, std::uint32_t page_bytes, std::uint64_
   sample.tree = collapse(sample.binary);
   sample.vertices = ChunkVertices(sample.mesh);
   sample.vertices.list_blocks(sample.tree.blocks, sample.keys);
+  sample.block_slots =
+      block_slots(sample.mesh, sample.vertices, sample.keys, sample.tree.blocks, sample.shape);
+  const RecordSlots slots{sample.shape.node_slots(), sample.block_slots};
+  part_blocks(sample.tree, slots, page_bytes);
   fit_discs(sample.mesh, sample.vertices, sample.centre, sample.keys, sample.tree);
   if (moments)
     sample.tree.moments =
         sum_moments(sample.mesh, sample.centre, sample.keys, sample.tree, sample.binary[0].box)
             .nodes;
-  sample.block_slots =
-      block_slots(sample.mesh, sample.vertices, sample.keys, sample.tree.blocks, sample.shape);
-  sample.plan = *plan_pages(sample.tree, sample.keys,
-                            {sample.shape.node_slots(), sample.block_slots}, page_bytes);
+  sample.plan = *plan_pages(sample.tree, sample.keys, slots, page_bytes);
   return sample;
 }
 
@@ -189,15 +190,13 @@ PageInfo page_info(const SampleTree& sample, std::uint32_t page) {
   info.shape = sample.shape;
   info.page_number = page;
   info.octcode = sample.plan.pages[page].octcode;
-  info.ordinal = sample.plan.pages[page].ordinal;
   return info;
 }
 
 TreeInfo tree_info(const SampleTree& sample) {
   TreeInfo info;
   info.page_bytes = sample.plan.page_bytes;
-  info.root_link =
-      sample.tree.nodes.empty() ? sample.plan.block_links[0] : sample.plan.node_links[0];
+  info.root_link = root_link_of(info.page_bytes, 0, sample.tree.nodes.size());
   info.shape = sample.shape;
   info.record_count = sample.tree.nodes.size() + sample.tree.blocks.size();
   info.box_lower = sample.mesh.frame.lower();

@@ -138,6 +138,12 @@ class SamplePages {
     return frames_[links.page(link)].data() + links.slot(link) * kSlotBytes;
   }
 
+  /// The node that a link of the page plan leads to.
+  const std::byte* node_record(const SampleTree& sample, StoredLink node) const {
+    const std::uint32_t page_bytes = sample.plan.page_bytes;
+    return record(LinkFormat(page_bytes), node_link(page_bytes, sample.shape, node));
+  }
+
   void withhold(std::uint32_t page) { withheld_[page] = true; }
   PageReader reader();
 

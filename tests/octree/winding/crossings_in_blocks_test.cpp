@@ -143,12 +143,13 @@ TEST(CrossingsInBlocks, AreIncompleteWhereALinkLeadsToNoBlock) {
   const auto [segment, blocks] = listed.one_of(2);
   ASSERT_GE(blocks.size(), 2u);
   const LinkFormat links(4096);
-  const std::uint32_t first_node = listed.pages.frame(0).header().first_node_slot;
+  const std::uint32_t page = links.page(blocks[0]);
+  const std::uint16_t count = listed.pages.frame(page).header().block_count;
   for (const std::uint32_t wrong :
-       {listed.tree.root_link, LinkFormat::kLeafBit | listed.tree.root_link, blocks[0] + 1,
-        blocks[0] & ~LinkFormat::kLeafBit, links.make(true, links.page(blocks[0]), 0),
-        links.make(false, 0, first_node),
-        links.make(true, static_cast<std::uint32_t>(listed.pages.size()), 20), 0xffffffffu})
+       {listed.tree.root_link, blocks[0] & ~LinkFormat::kLeafBit,
+        links.make_numbered({page, count}), links.make_numbered({page, 15}),
+        links.make_numbered({page, 16}), links.make_numbered({page, 63}),
+        links.make_numbered({static_cast<std::uint32_t>(listed.pages.size()), 0}), 0xffffffffu})
     for (std::size_t at = 0; at < blocks.size(); ++at) {
       std::vector<std::uint32_t> changed = blocks;
       changed[at] = wrong;

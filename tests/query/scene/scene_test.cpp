@@ -211,7 +211,7 @@ TEST_F(SceneTest, TellsWhatAModelHolds) {
   EXPECT_GT(memory.side_grid, 0u);
   EXPECT_GT(memory.probes, 0u);
   EXPECT_EQ(memory.total,
-            memory.page_table + memory.side_grid + memory.field + memory.probes + memory.other);
+            memory.directory + memory.side_grid + memory.field + memory.probes + memory.other);
   const SceneStats stats = scene.stats();
   EXPECT_EQ(stats.model_bytes, memory.total);
   EXPECT_LE(stats.arena_bytes + stats.model_bytes, before);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -10,6 +11,8 @@
 #include <vector>
 
 #include "storage/file/checksum.h"
+#include "storage/file/directory_shape.h"
+#include "storage/file/directory_writer.h"
 #include "storage/file/file_layout.h"
 #include "storage/file/header_check.h"
 
@@ -42,8 +45,30 @@ class FileImage {
   /// Changes the leading header only.
   void set_header(const FileHeader& header) { set(0, header); }
 
-  PageEntry entry(std::uint32_t page) const { return get<PageEntry>(table_end(page)); }
-  void set_entry(std::uint32_t page, const PageEntry& entry) { set(table_end(page), entry); }
+  /// Entry of a page in the directory.
+  DirectoryPage entry(std::uint32_t page) const {
+    return get<DirectoryPage>(offset_of_entry(page));
+  }
+  void set_entry(std::uint32_t page, const DirectoryPage& entry) {
+    set(offset_of_entry(page), entry);
+  }
+  std::size_t offset_of_entry(std::uint32_t page) const {
+    const DirectoryShape shape(header().page_count);
+    return directory_start(header().extension_count) + shape.block_offset(shape.page_level(), 0) +
+           page * sizeof(DirectoryPage);
+  }
+  /// Offset in the file of a page's stored bytes, as the entries say.
+  std::size_t offset_of_page(std::uint32_t page) const {
+    std::size_t offset = pages_start(header());
+    for (std::uint32_t before = 0; before < page; ++before) offset += entry(before).stored_bytes;
+    return offset;
+  }
+  ExtensionRecord extension(std::uint32_t index) const {
+    return get<ExtensionRecord>(kHeaderBytes + index * sizeof(ExtensionRecord));
+  }
+  void set_extension(std::uint32_t index, const ExtensionRecord& record) {
+    set(kHeaderBytes + index * sizeof(ExtensionRecord), record);
+  }
 
   template <class Change>
   void change_header(Change change) {
@@ -53,44 +78,56 @@ class FileImage {
   }
   template <class Change>
   void change_entry(std::uint32_t page, Change change) {
-    PageEntry changed = entry(page);
+    DirectoryPage changed = entry(page);
     change(changed);
     set_entry(page, changed);
   }
 
   std::span<std::byte> stored(std::uint32_t page) {
-    return std::span(bytes_).subspan(entry(page).offset, entry(page).stored_bytes);
+    return std::span(bytes_).subspan(offset_of_page(page), entry(page).stored_bytes);
   }
 
-  /// Whether the page table that the header describes lies within the bytes.
-  bool table_fits() const {
-    return bytes_.size() >= kHeaderBytes && table_end(header().page_count) <= bytes_.size();
+  /// Whether the directory that the header describes lies within the bytes.
+  bool directory_fits() const {
+    return bytes_.size() >= kHeaderBytes && header().page_count > 0 &&
+           header().extension_count <= kMaxExtensions && pages_start(header()) <= bytes_.size();
   }
 
-  /// Computes page checks and content id from the stored bytes. Pages that lie outside the file get
-  /// a hash of 0.
+  /// Computes the hashes of pages from the stored bytes. Pages that lie outside the file get a hash
+  /// of 0.
   void seal_pages() {
-    std::vector<PageEntry> entries = all_entries();
+    std::size_t offset = pages_start(header());
+    for (std::uint32_t page = 0; page < header().page_count; ++page) {
+      const std::size_t stored_bytes = entry(page).stored_bytes;
+      const bool inside = offset <= bytes_.size() && stored_bytes <= bytes_.size() - offset;
+      const std::uint64_t check =
+          inside ? hash64(std::span(bytes_).subspan(offset, stored_bytes)) : 0;
+      change_entry(page, [&](DirectoryPage& it) { it.check = check; });
+      offset += stored_bytes;
+    }
+  }
+
+  /// Makes the upper levels of the directory and the content id from the entries of pages.
+  void seal_directory() {
     FileHeader sealed = header();
-    for (std::uint32_t page = 0; page < sealed.page_count; ++page) {
-      PageEntry& entry = entries[page];
-      const bool inside =
-          entry.offset <= bytes_.size() && entry.stored_bytes <= bytes_.size() - entry.offset;
-      entry.check = inside ? page_hash(page, stored(page)) : 0;
+    std::vector<DirectoryPage> pages(sealed.page_count);
+    for (std::uint32_t page = 0; page < pages.size(); ++page) pages[page] = entry(page);
+    const DirectoryWriter directory(sealed, pages);
+    for (unsigned level = 0; level < directory.shape().levels(); ++level) {
+      const std::size_t offset =
+          directory_start(sealed.extension_count) + directory.shape().block_offset(level, 0);
+      std::ranges::copy(directory.level(level),
+                        bytes_.begin() + static_cast<std::ptrdiff_t>(offset));
     }
-    const Hash128 id = content_id(entries, 0);
-    for (std::uint32_t page = 0; page < sealed.page_count; ++page) {
-      entries[page].check ^= id.low;
-      set_entry(page, entries[page]);
-    }
-    sealed.content_id[0] = id.low;
-    sealed.content_id[1] = id.high;
+    sealed.content_id[0] = directory.content_id().low;
+    sealed.content_id[1] = directory.content_id().high;
     set_header(sealed);
   }
 
-  void seal_table() {
+  void seal_extensions() {
     FileHeader sealed = header();
-    sealed.table_hash = table_hash(all_entries());
+    sealed.extensions_hash = hash64(
+        std::span(bytes_).subspan(kHeaderBytes, sealed.extension_count * sizeof(ExtensionRecord)));
     set_header(sealed);
   }
 
@@ -104,17 +141,12 @@ class FileImage {
 
   void seal() {
     seal_pages();
-    seal_table();
+    seal_directory();
+    seal_extensions();
     seal_header();
   }
 
  private:
-  std::vector<PageEntry> all_entries() const {
-    std::vector<PageEntry> entries(header().page_count);
-    for (std::uint32_t page = 0; page < entries.size(); ++page) entries[page] = entry(page);
-    return entries;
-  }
-
   template <class T>
   T get(std::size_t offset) const {
     T value;

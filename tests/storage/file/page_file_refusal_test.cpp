@@ -20,10 +20,20 @@ TEST_F(PageFileRefusal, RefusesOtherVersionsAndUnknownFeatures) {
                         ErrorCode::kUnsupported, "0x20");
   // Another version may have another header.
   FileImage image = good();
-  image.change_header([](FileHeader& h) { h.version = kFormatVersion + 1; });
+  image.change_header([](FileHeader& h) { h.version = 0x203; });
   std::memset(image.bytes().data() + image.bytes().size() - kHeaderBytes, 0, kHeaderBytes);
-  expect_refused(image, ErrorCode::kUnsupported,
-                 std::string("version " + std::to_string(kFormatVersion)).c_str());
+  expect_refused(image, ErrorCode::kUnsupported, "format version 2.3");
+  image = good();
+  image.change_header([](FileHeader& h) { h.version = 14; });
+  std::memset(image.bytes().data() + image.bytes().size() - kHeaderBytes, 0, kHeaderBytes);
+  expect_refused(image, ErrorCode::kUnsupported, "format version 14, from before 1.0");
+}
+
+TEST_F(PageFileRefusal, AcceptsLaterMinorVersions) {
+  FileImage image = good();
+  image.change_header([](FileHeader& h) { h.version = 0x1ff; });
+  image.seal_header();
+  EXPECT_EQ(refusal_of(image).text[0], 0);
 }
 
 TEST_F(PageFileRefusal, AcceptsUnknownCompatibleFeatures) {
@@ -58,19 +68,21 @@ TEST_F(PageFileRefusal, RefusesBadHeaderFields) {
     expect_damaged([&](FileHeader& h) { h.page_bytes = bytes; }, "page size");
   }
   expect_damaged([](FileHeader& h) { h.page_count = 0; }, "no page");
-  expect_damaged([](FileHeader& h) { h.page_count = ~0u; }, "page table does not fit");
-  expect_damaged([](FileHeader& h) { h.page_count = 100; }, "page table does not fit");
+  expect_damaged([](FileHeader& h) { h.page_count = ~0u; }, "directory does not fit");
+  expect_damaged([](FileHeader& h) { h.page_count = 100; }, "directory does not fit");
   expect_damaged([](FileHeader& h) { h.max_raw_bytes = 0; }, "largest raw page");
   expect_damaged([](FileHeader& h) { h.max_raw_bytes = 4 * kMaxPageBytes + 1; },
                  "largest raw page");
   expect_damaged([](FileHeader& h) { h.max_raw_bytes = ~0u; }, "largest raw page");
   expect_damaged([](FileHeader& h) { h.max_stored_bytes = 0; }, "largest stored page");
-  expect_damaged([](FileHeader& h) { h.max_stored_bytes = ~std::uint64_t{0}; },
-                 "largest stored page");
+  expect_damaged([](FileHeader& h) { h.max_stored_bytes = ~0u; }, "largest stored page");
+  expect_damaged([](FileHeader& h) { h.extension_count = kMaxExtensions + 1; }, "does not fit");
+  expect_damaged([](FileHeader& h) { h.extension_count = ~0u; }, "does not fit");
+  for (unsigned kind = 0; kind < kPageKinds; ++kind)
+    expect_damaged([&](FileHeader& h) { h.stored_bytes[kind] = ~std::uint64_t{0}; }, "do not fit");
   expect_damaged([](FileHeader& h) { h.reserved[0] = 1; }, "reserved");
   expect_damaged([](FileHeader& h) { h.reserved[std::size(FileHeader{}.reserved) - 1] = 1; },
                  "reserved");
-  expect_damaged([](FileHeader& h) { ++h.max_raw_bytes; }, "no page is as large");
 }
 
 TEST_F(PageFileRefusal, RefusesBadModelFields) {
@@ -105,7 +117,7 @@ TEST_F(PageFileRefusal, RefusesBadModelFields) {
         m.mask_levels = 20;
       },
       "mask's size");
-  for (const int at : {0, 4}) {
+  for (const int at : {0, 8}) {
     expect_model_refused([&](ModelRecord& m) { m.reserved[at] = 1; }, "reserved");
   }
 }
@@ -240,7 +252,6 @@ TEST_F(PageFileRefusal, RefusesCapsThatAreNotThoseOfTheEdges) {
       },
       "more caps than");
   expect_model_refused([](ModelRecord& m) { m.cap_area = 1; }, "area of the caps");
-  expect_model_refused([](ModelRecord& m) { m.cap_root_link = 1; }, "area of the caps");
   expect_model_refused([](ModelRecord& m) { m.cap_height = 1; }, "tree of caps");
   expect_model_refused([](ModelRecord& m) { m.cap_reserved[0] = 1; }, "reserved");
 }
@@ -259,63 +270,44 @@ TEST_F(PageFileRefusal, AcceptsModelsAtTheLimits) {
   EXPECT_EQ(refusal_of(image).text[0], 0);
 }
 
-TEST_F(PageFileRefusal, RefusesWrongTableHashAndContentId) {
+TEST_F(PageFileRefusal, RefusesADirectoryThatIsNotThatOfTheHeader) {
   FileImage image = good();
-  image.change_header([](FileHeader& h) { h.table_hash ^= 1; });
-  image.seal_header();
-  expect_refused(image, ErrorCode::kDamaged, "page table's checksum");
-  image = good();
-  image.change_entry(1, [](PageEntry& e) { e.check ^= 1; });
-  image.seal_table();
-  image.seal_header();
-  expect_refused(image, ErrorCode::kDamaged, "content id");
+  image.change_entry(1, [](DirectoryPage& e) { e.check ^= 1; });
+  expect_refused(image, ErrorCode::kDamaged, "hash of a part of the directory");
   for (const int word : {0, 1}) {
     expect_header_refused([&](FileHeader& h) { h.content_id[word] ^= 1; }, ErrorCode::kDamaged,
-                          "content id");
+                          "hash of a part of the directory");
   }
 }
 
 TEST_F(PageFileRefusal, RefusesBadPageEntries) {
   expect_entry_refused(
-      0, [](PageEntry& e) { ++e.offset; }, "does not start where");
+      2, [](DirectoryPage& e) { --e.stored_bytes; }, "do not end where");
   expect_entry_refused(
-      1, [](PageEntry& e) { --e.offset; }, "does not start where");
+      0, [](DirectoryPage& e) { e.raw_bytes = 135; }, "raw length is above");
   expect_entry_refused(
-      2, [](PageEntry& e) { e.offset = ~std::uint64_t{0}; }, "does not start where");
+      0, [](DirectoryPage& e) { e.raw_bytes = ~0u; }, "raw length is above");
   expect_entry_refused(
-      2, [](PageEntry& e) { --e.stored_bytes; }, "do not end where");
+      0, [](DirectoryPage& e) { e.raw_bytes = 0; }, "cannot give");
   expect_entry_refused(
-      1, [](PageEntry& e) { e.codec = Codec{7}; }, "codec");
+      0, [](DirectoryPage& e) { e.stored_bytes = 0; }, "stored length is zero");
   expect_entry_refused(
-      0, [](PageEntry& e) { e.raw_bytes = 135; }, "raw length is above");
+      0, [](DirectoryPage& e) { e.stored_bytes = ~0u; }, "above the file's largest");
   expect_entry_refused(
-      0, [](PageEntry& e) { e.raw_bytes = ~0u; }, "raw length is above");
-  expect_entry_refused(
-      0, [](PageEntry& e) { e.raw_bytes = 0; }, "cannot give");
-  expect_entry_refused(
-      0, [](PageEntry& e) { e.stored_bytes = 0; }, "stored length is zero");
-  expect_entry_refused(
-      0, [](PageEntry& e) { e.stored_bytes = ~0u; }, "above the file's largest");
-  expect_entry_refused(
-      1, [](PageEntry& e) { e.raw_bytes = 126; }, "cannot give");
-  expect_entry_refused(
-      1, [](PageEntry& e) { e.codec = Codec::kLz4; }, "cannot give");
+      1, [](DirectoryPage& e) { e.raw_bytes = 126; }, "cannot give");
 }
 
-TEST_F(PageFileRefusal, RefusesPageKeysOutOfOrder) {
+TEST_F(PageFileRefusal, RefusesOctcodesOutOfOrder) {
   expect_entry_refused(
-      1, [](PageEntry& e) { e.ordinal = 0; }, "key does not follow");
+      1, [](DirectoryPage& e) { e.octcode = 2; }, "octcode does not follow");
   expect_entry_refused(
-      2, [](PageEntry& e) { e.octcode = 0; }, "key does not follow");
-  expect_entry_refused(
-      2, [](PageEntry& e) { e = {e.offset, e.check, 0, 1, e.codec, e.stored_bytes, e.raw_bytes}; },
-      "key does not follow");
+      0, [](DirectoryPage& e) { e.octcode = 1; }, "octcode does not follow");
 }
 
 // A small page that claims to decode to a mebibyte.
 TEST_F(PageFileRefusal, RefusesDecompressionBombs) {
   FileImage image = good();
-  image.change_entry(0, [](PageEntry& e) { e.raw_bytes = kMaxRawBytes; });
+  image.change_entry(0, [](DirectoryPage& e) { e.raw_bytes = kMaxRawBytes; });
   image.change_header([](FileHeader& h) { h.max_raw_bytes = kMaxRawBytes; });
   image.seal();
   expect_refused(image, ErrorCode::kDamaged, "cannot give");

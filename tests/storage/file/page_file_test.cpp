@@ -41,7 +41,7 @@ TEST(PageFile, ReadsWhatWasWritten) {
     EXPECT_EQ(std::memcmp(&file->header(), &*header, sizeof(FileHeader)), 0);
     EXPECT_FALSE(file->header_copy_damaged());
     EXPECT_EQ(file->page_count(), page_count);
-    EXPECT_EQ(file->table_memory_bytes(), page_count * sizeof(PageEntry));
+    EXPECT_EQ(file->directory_memory_bytes(), page_count * kDirectoryEntryBytes);
     for (std::uint32_t page = 0; page < page_count; ++page) {
       const Result<Bytes> raw = read_page(*file, page);
       ASSERT_TRUE(raw) << raw.error().text;
@@ -55,10 +55,9 @@ TEST(PageFile, HoldsPagesOfBothCodecs) {
   ASSERT_TRUE(SampleFile().write(directory / "a.ptree"));
   const Result<PageFile> file = PageFile::open(directory / "a.ptree");
   ASSERT_TRUE(file);
-  EXPECT_EQ(file->entries()[0].codec, Codec::kLz4);
-  EXPECT_EQ(file->entries()[1].codec, Codec::kStored);
-  EXPECT_EQ(file->entries()[2].ordinal, 0u);
-  EXPECT_EQ(file->entries()[2].octcode, 1u);
+  EXPECT_EQ(file->entry(0)->codec(), Codec::kLz4);
+  EXPECT_EQ(file->entry(1)->codec(), Codec::kStored);
+  EXPECT_EQ(file->entry(2)->octcode, 1u);
 }
 
 TEST(PageFile, ReadsWithoutAllocating) {
@@ -72,7 +71,7 @@ TEST(PageFile, ReadsWithoutAllocating) {
   const std::size_t before = allocation_count;
   for (std::uint32_t page = 0; page < 4; ++page) {
     const bool read =
-        bool(file->read_page(page, scratch, std::span(raw).first(file->entries()[page].raw_bytes)));
+        bool(file->read_page(page, scratch, std::span(raw).first(file->entry(page)->raw_bytes)));
     EXPECT_TRUE(read);
   }
   EXPECT_EQ(allocation_count, before);

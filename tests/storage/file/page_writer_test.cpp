@@ -42,7 +42,7 @@ TEST(PageWriter, RefusesAnExistingDestinationAtOnce) {
   const TemporaryDirectory directory;
   const Bytes old(3, std::byte{7});
   write_bytes(directory / "a", old);
-  EXPECT_EQ(code_of(PageWriter::create(directory / "a", 1, false)), ErrorCode::kAlreadyExists);
+  EXPECT_EQ(code_of(PageWriter::create(directory / "a", 1, {}, false)), ErrorCode::kAlreadyExists);
   EXPECT_EQ(read_bytes(directory / "a"), old);
   EXPECT_TRUE(SampleFile().write(directory / "a", true));
   EXPECT_TRUE(read_all(directory / "a"));
@@ -52,8 +52,9 @@ TEST(PageWriter, RefusesAnExistingDestinationAtOnce) {
 TEST(PageWriter, ReplacesNothingButFilesAndLinks) {
   const TemporaryDirectory directory;
   std::filesystem::create_directory(directory / "folder");
-  EXPECT_EQ(code_of(PageWriter::create(directory / "folder", 1, true)), ErrorCode::kAlreadyExists);
-  EXPECT_EQ(code_of(PageWriter::create("/dev/null", 1, true)), ErrorCode::kAlreadyExists);
+  EXPECT_EQ(code_of(PageWriter::create(directory / "folder", 1, {}, true)),
+            ErrorCode::kAlreadyExists);
+  EXPECT_EQ(code_of(PageWriter::create("/dev/null", 1, {}, true)), ErrorCode::kAlreadyExists);
 }
 
 TEST(PageWriter, NeverFollowsALinkAtTheDestination) {
@@ -63,7 +64,7 @@ TEST(PageWriter, NeverFollowsALinkAtTheDestination) {
   std::filesystem::create_symlink("precious", directory / "link");
   std::filesystem::create_symlink("nowhere", directory / "dangling");
   EXPECT_EQ(code_of(SampleFile().write(directory / "link")), ErrorCode::kAlreadyExists);
-  EXPECT_EQ(code_of(PageWriter::create(directory / "dangling", 1, false)),
+  EXPECT_EQ(code_of(PageWriter::create(directory / "dangling", 1, {}, false)),
             ErrorCode::kAlreadyExists);
   EXPECT_TRUE(SampleFile().write(directory / "link", true));
   EXPECT_TRUE(SampleFile().write(directory / "dangling", true));
@@ -75,10 +76,10 @@ TEST(PageWriter, NeverFollowsALinkAtTheDestination) {
 
 TEST(PageWriter, NeverFollowsALinkCreatedDuringTheBuild) {
   const TemporaryDirectory directory;
-  Result<PageWriter> writer = PageWriter::create(directory / "a", 1, false);
+  Result<PageWriter> writer = PageWriter::create(directory / "a", 1, {}, false);
   ASSERT_TRUE(writer);
   std::filesystem::create_symlink("nowhere", directory / "a");
-  ASSERT_TRUE(writer->append(0, 0, 64, compress_page(sample_page(0, 64))));
+  ASSERT_TRUE(writer->append(0, 64, compress_page(sample_page(0, 64))));
   EXPECT_EQ(code_of(writer->finish(sample_model(), kMinPageBytes)), ErrorCode::kAlreadyExists);
   EXPECT_EQ(directory.names(), Names{"a"});
   EXPECT_TRUE(std::filesystem::is_symlink(directory / "a"));
@@ -87,9 +88,9 @@ TEST(PageWriter, NeverFollowsALinkCreatedDuringTheBuild) {
 TEST(PageWriter, LeavesNothingWhenAbandoned) {
   const TemporaryDirectory directory;
   {
-    Result<PageWriter> writer = PageWriter::create(directory / "a", 2, false);
+    Result<PageWriter> writer = PageWriter::create(directory / "a", 2, {}, false);
     ASSERT_TRUE(writer);
-    ASSERT_TRUE(writer->append(0, 0, 64, compress_page(sample_page(0, 64))));
+    ASSERT_TRUE(writer->append(0, 64, compress_page(sample_page(0, 64))));
     EXPECT_EQ(directory.names(), Names{});
   }
   EXPECT_EQ(directory.names(), Names{});
@@ -97,49 +98,48 @@ TEST(PageWriter, LeavesNothingWhenAbandoned) {
 
 TEST(PageWriter, RefusesPathsWithoutADirectoryOrAName) {
   const TemporaryDirectory directory;
-  EXPECT_EQ(code_of(PageWriter::create(directory / "no" / "a", 1, false)), ErrorCode::kNotFound);
-  EXPECT_EQ(code_of(PageWriter::create("", 1, false)), ErrorCode::kBadArgument);
-  EXPECT_EQ(code_of(PageWriter::create(directory / "", 1, false)), ErrorCode::kBadArgument);
-  EXPECT_EQ(code_of(PageWriter::create(directory / "..", 1, false)), ErrorCode::kBadArgument);
+  EXPECT_EQ(code_of(PageWriter::create(directory / "no" / "a", 1, {}, false)),
+            ErrorCode::kNotFound);
+  EXPECT_EQ(code_of(PageWriter::create("", 1, {}, false)), ErrorCode::kBadArgument);
+  EXPECT_EQ(code_of(PageWriter::create(directory / "", 1, {}, false)), ErrorCode::kBadArgument);
+  EXPECT_EQ(code_of(PageWriter::create(directory / "..", 1, {}, false)), ErrorCode::kBadArgument);
 }
 
 TEST(PageWriter, RefusesPagesOutOfOrder) {
   const TemporaryDirectory directory;
   const StoredPage page = compress_page(sample_page(0, 64));
-  const auto second = [&](std::uint64_t octcode, std::uint32_t ordinal) {
-    Result<PageWriter> writer = PageWriter::create(directory / "a", 2, false);
-    EXPECT_TRUE(writer->append(5, 5, 64, page));
-    return writer->append(octcode, ordinal, 64, page);
+  const auto second = [&](std::uint64_t octcode) {
+    Result<PageWriter> writer = PageWriter::create(directory / "a", 2, {}, false);
+    EXPECT_TRUE(writer->append(5, 64, page));
+    return writer->append(octcode, 64, page);
   };
-  EXPECT_TRUE(second(5, 6));
-  EXPECT_TRUE(second(6, 0));
-  EXPECT_EQ(code_of(second(5, 5)), ErrorCode::kBadArgument);
-  EXPECT_EQ(code_of(second(5, 4)), ErrorCode::kBadArgument);
-  EXPECT_EQ(code_of(second(4, 9)), ErrorCode::kBadArgument);
+  EXPECT_TRUE(second(5));
+  EXPECT_TRUE(second(6));
+  EXPECT_EQ(code_of(second(4)), ErrorCode::kBadArgument);
 }
 
 TEST(PageWriter, FailsForGoodAfterAnError) {
   const TemporaryDirectory directory;
   const StoredPage page = compress_page(sample_page(0, 64));
-  Result<PageWriter> writer = PageWriter::create(directory / "a", 2, false);
-  ASSERT_TRUE(writer->append(5, 5, 64, page));
-  const Result<void> failed = writer->append(5, 5, 64, page);
+  Result<PageWriter> writer = PageWriter::create(directory / "a", 2, {}, false);
+  ASSERT_TRUE(writer->append(5, 64, page));
+  const Result<void> failed = writer->append(4, 64, page);
   ASSERT_FALSE(failed);
-  const Result<void> right = writer->append(6, 0, 64, page);
+  const Result<void> right = writer->append(6, 64, page);
   ASSERT_FALSE(right);
   EXPECT_STREQ(right.error().text, failed.error().text);
 }
 
 TEST(PageWriter, RefusesAWrongNumberOfPages) {
   const TemporaryDirectory directory;
-  EXPECT_EQ(code_of(PageWriter::create(directory / "a", 0, false)), ErrorCode::kBadArgument);
+  EXPECT_EQ(code_of(PageWriter::create(directory / "a", 0, {}, false)), ErrorCode::kBadArgument);
   const StoredPage page = compress_page(sample_page(0, 64));
-  Result<PageWriter> writer = PageWriter::create(directory / "a", 1, false);
-  ASSERT_TRUE(writer->append(0, 0, 64, page));
-  EXPECT_EQ(code_of(writer->append(1, 0, 64, page)), ErrorCode::kBadArgument);
+  Result<PageWriter> writer = PageWriter::create(directory / "a", 1, {}, false);
+  ASSERT_TRUE(writer->append(0, 64, page));
+  EXPECT_EQ(code_of(writer->append(1, 64, page)), ErrorCode::kBadArgument);
   EXPECT_EQ(code_of(writer->finish(sample_model(), kMinPageBytes)), ErrorCode::kBadArgument);
-  Result<PageWriter> early = PageWriter::create(directory / "a", 2, false);
-  ASSERT_TRUE(early->append(0, 0, 64, page));
+  Result<PageWriter> early = PageWriter::create(directory / "a", 2, {}, false);
+  ASSERT_TRUE(early->append(0, 64, page));
   EXPECT_EQ(code_of(early->finish(sample_model(), kMinPageBytes)), ErrorCode::kBadArgument);
   EXPECT_EQ(directory.names(), Names{});
 }
@@ -147,37 +147,37 @@ TEST(PageWriter, RefusesAWrongNumberOfPages) {
 TEST(PageWriter, RefusesModelsThatAReaderWouldRefuse) {
   const TemporaryDirectory directory;
   const auto finish = [&](const ModelRecord& model, std::uint32_t page_bytes) {
-    Result<PageWriter> writer = PageWriter::create(directory / "a", 1, false);
-    EXPECT_TRUE(writer->append(0, 0, 64, compress_page(sample_page(0, 64))));
+    Result<PageWriter> writer = PageWriter::create(directory / "a", 1, {}, false);
+    EXPECT_TRUE(writer->append(0, 64, compress_page(sample_page(0, 64))));
     return writer->finish(model, page_bytes);
   };
   ModelRecord model = sample_model();
   model.box_lower[1] = std::nan("");
   EXPECT_EQ(code_of(finish(model, kMinPageBytes)), ErrorCode::kBadArgument);
   EXPECT_EQ(code_of(finish(sample_model(), 5000)), ErrorCode::kBadArgument);
-  Result<PageWriter> writer = PageWriter::create(directory / "a", 1, false);
-  EXPECT_EQ(code_of(writer->append(0, 0, 0, {Codec::kStored, {}})), ErrorCode::kBadArgument);
+  Result<PageWriter> writer = PageWriter::create(directory / "a", 1, {}, false);
+  EXPECT_EQ(code_of(writer->append(0, 0, {Codec::kStored, {}})), ErrorCode::kBadArgument);
   EXPECT_EQ(directory.names(), Names{});
 }
 
 TEST(PageWriter, RefusesCallsAfterFinish) {
   const TemporaryDirectory directory;
-  Result<PageWriter> writer = PageWriter::create(directory / "a", 1, false);
+  Result<PageWriter> writer = PageWriter::create(directory / "a", 1, {}, false);
   const StoredPage page = compress_page(sample_page(0, 64));
-  ASSERT_TRUE(writer->append(0, 0, 64, page));
+  ASSERT_TRUE(writer->append(0, 64, page));
   ASSERT_TRUE(writer->finish(sample_model(), kMinPageBytes));
-  EXPECT_EQ(code_of(writer->append(1, 0, 64, page)), ErrorCode::kBadArgument);
+  EXPECT_EQ(code_of(writer->append(1, 64, page)), ErrorCode::kBadArgument);
   EXPECT_EQ(code_of(writer->finish(sample_model(), kMinPageBytes)), ErrorCode::kBadArgument);
   EXPECT_TRUE(read_all(directory / "a"));
 }
 
 TEST(PageWriter, LaterOfTwoWritersFailsWithAlreadyExists) {
   const TemporaryDirectory directory;
-  Result<PageWriter> first = PageWriter::create(directory / "a", 1, false);
-  Result<PageWriter> second = PageWriter::create(directory / "a", 1, false);
+  Result<PageWriter> first = PageWriter::create(directory / "a", 1, {}, false);
+  Result<PageWriter> second = PageWriter::create(directory / "a", 1, {}, false);
   ASSERT_TRUE(first && second);
-  ASSERT_TRUE(first->append(0, 0, 64, compress_page(sample_page(0, 64, 1))));
-  ASSERT_TRUE(second->append(0, 0, 64, compress_page(sample_page(0, 64, 2))));
+  ASSERT_TRUE(first->append(0, 64, compress_page(sample_page(0, 64, 1))));
+  ASSERT_TRUE(second->append(0, 64, compress_page(sample_page(0, 64, 2))));
   ASSERT_TRUE(second->finish(sample_model(), kMinPageBytes));
   EXPECT_EQ(code_of(first->finish(sample_model(), kMinPageBytes)), ErrorCode::kAlreadyExists);
   EXPECT_EQ((*read_all(directory / "a"))[0], sample_page(0, 64, 2));

@@ -69,7 +69,7 @@ class PageSoon {
     if (file) file_.emplace(*std::move(file));
   }
 
-  const PageEntry& entry() const { return file_->entries()[1]; }
+  PageEntry entry() const { return *file_->entry(1); }
   /// Returns whether the page was read in time.
   bool read(const ReadLimits& terms = {}) const {
     Bytes stored(file_->header().max_stored_bytes), raw(entry().raw_bytes);

@@ -48,17 +48,18 @@ struct SampleFile {
   std::uint32_t page_count = 3;
   std::size_t page_bytes = 120;  ///< bytes of page 0; each further page is 7 bytes longer
   std::uint64_t seed = 1;
+  std::vector<Extension> extensions{};
 
   Bytes raw(std::uint32_t page) const { return sample_page(page, page_bytes + 7 * page, seed); }
 
   Result<FileHeader> write(const std::filesystem::path& path, bool replace = false,
                            FileCalls& calls = FileCalls::real()) const {
-    Result<PageWriter> writer = PageWriter::create(path, page_count, replace, calls);
+    Result<PageWriter> writer = PageWriter::create(path, page_count, extensions, replace, calls);
     if (!writer) return writer.error();
     for (std::uint32_t page = 0; page < page_count; ++page) {
       const Bytes bytes = raw(page);
-      const Result<void> appended = writer->append(
-          page / 2, page % 2, static_cast<std::uint32_t>(bytes.size()), compress_page(bytes));
+      const Result<void> appended =
+          writer->append(page / 2, static_cast<std::uint32_t>(bytes.size()), compress_page(bytes));
       if (!appended) return appended.error();
     }
     return writer->finish(sample_model(), kMinPageBytes);
@@ -68,7 +69,9 @@ struct SampleFile {
 /// Reads one page into buffers of exactly the sizes required.
 inline Result<Bytes> read_page(const PageFile& file, std::uint32_t page) {
   Bytes scratch(file.header().max_stored_bytes);
-  Bytes raw(file.entries()[page].raw_bytes);
+  const Result<PageEntry> entry = file.entry(page);
+  if (!entry) return entry.error();
+  Bytes raw(entry->raw_bytes);
   const Result<void> read = file.read_page(page, scratch, raw);
   if (!read) return read.error();
   return raw;

@@ -155,9 +155,9 @@ TEST_P(WriteFaults, AFailedSyncIsNotRetried) {
 TEST_P(WriteFaults, DestinationCreatedMeanwhileIsKept) {
   if (GetParam().replace) GTEST_SKIP() << "replacing was asked for";
   FaultyCalls made = calls(Fault::kNone, 0, 0);
-  Result<PageWriter> writer = PageWriter::create(path_, 1, false, made);
+  Result<PageWriter> writer = PageWriter::create(path_, 1, {}, false, made);
   ASSERT_TRUE(writer);
-  ASSERT_TRUE(writer->append(0, 0, 64, compress_page(sample_page(0, 64))));
+  ASSERT_TRUE(writer->append(0, 64, compress_page(sample_page(0, 64))));
   write_bytes(path_, old_);
   const Result<FileHeader> header = writer->finish(sample_model(), kMinPageBytes);
   ASSERT_FALSE(header);

@@ -24,21 +24,27 @@ class FileCheckOfAttributes : public FileCheckOfMasks {
     EXPECT_TRUE(report) << report.error().text;
     return tree;
   }
-  // Changes a link of the first attribute page. Byte k of link i is at k n + i behind the head.
+  using StoredLink = octree::StoredLink;
+
+  // Changes a link of the first attribute page: a page in 4 bytes and a block in 2. Byte k of
+  // triangle i is at k n + i behind the head.
   static Forgery forged_link(std::uint32_t triangle,
-                             const std::function<std::uint32_t(std::uint32_t)>& change) {
+                             const std::function<StoredLink(StoredLink)>& change) {
     Forgery forgery;
     forgery.attributes = [=](std::uint32_t page, std::vector<std::byte>& raw) {
       if (page != 0) return;
       octree::AttributePageHead head;
       std::memcpy(&head, raw.data(), sizeof head);
-      std::uint32_t link = 0;
+      StoredLink link;
       const auto at = [&](unsigned k) -> std::byte& {
         return raw[sizeof head + k * head.triangle_count + triangle];
       };
-      for (unsigned k = 0; k < 4; ++k) link |= static_cast<std::uint32_t>(at(k)) << (8 * k);
+      for (unsigned k = 0; k < 4; ++k) link.page |= static_cast<std::uint32_t>(at(k)) << (8 * k);
+      link.record = static_cast<std::uint16_t>(static_cast<unsigned>(at(4)) |
+                                               static_cast<unsigned>(at(5)) << 8);
       link = change(link);
-      for (unsigned k = 0; k < 4; ++k) at(k) = static_cast<std::byte>(link >> (8 * k));
+      for (unsigned k = 0; k < 4; ++k) at(k) = static_cast<std::byte>(link.page >> (8 * k));
+      for (unsigned k = 0; k < 2; ++k) at(4 + k) = static_cast<std::byte>(link.record >> (8 * k));
     };
     return forgery;
   }
@@ -51,24 +57,23 @@ TEST_F(FileCheckOfAttributes, FindsNothingInSoundFiles) {
 }
 
 TEST_F(FileCheckOfAttributes, FindsLinksToOtherBlocksAndMissingOnes) {
-  const std::uint32_t other = [&] {
-    std::uint32_t found = 0;
-    check_forgery(kept(), forged_link(900, [&](std::uint32_t link) { return found = link; }),
-                  false);
+  const StoredLink other = [&] {
+    StoredLink found;
+    check_forgery(kept(), forged_link(900, [&](StoredLink link) { return found = link; }), false);
     return found;
   }();
-  const auto to_other = forged_link(0, [=](std::uint32_t) { return other; });
+  const auto to_other = forged_link(0, [=](StoredLink) { return other; });
   EXPECT_EQ(codes_of(check_forgery(kept(), to_other, true)), Codes{"ATTRIBUTES"});
   EXPECT_EQ(codes_of(check_forgery(kept(), to_other, false)), Codes{});
-  const auto within = forged_link(0, [](std::uint32_t link) { return link + 1; });
-  EXPECT_EQ(codes_of(check_forgery(kept(), within, true)), Codes{"ATTRIBUTES"});
-  const auto to_none = forged_link(0, [](std::uint32_t) { return octree::kNoLink; });
+  const auto beyond = forged_link(0, [](StoredLink link) { return StoredLink{link.page, 15}; });
+  EXPECT_EQ(codes_of(check_forgery(kept(), beyond, true)), Codes{"ATTRIBUTES"});
+  const auto to_none = forged_link(0, [](StoredLink) { return octree::kNoStoredLink; });
   EXPECT_EQ(codes_of(check_forgery(kept(), to_none, true)), Codes{"ATTRIBUTES"});
 }
 
 TEST_F(FileCheckOfAttributes, FindsPagesWithBadStructure) {
-  const auto to_node = forged_link(0, [](std::uint32_t link) { return link & 0x7fffffff; });
-  EXPECT_EQ(codes_of(check_forgery(kept(), to_node, false)), Codes{"PAGE_STRUCTURE"});
+  const auto too_far = forged_link(0, [](StoredLink link) { return StoredLink{link.page, 16}; });
+  EXPECT_EQ(codes_of(check_forgery(kept(), too_far, false)), Codes{"PAGE_STRUCTURE"});
   Forgery forgery;
   forgery.attributes = [](std::uint32_t, std::vector<std::byte>& raw) { raw.pop_back(); };
   EXPECT_EQ(codes_of(check_forgery(kept(), forgery, false)), Codes{"PAGE_STRUCTURE"});

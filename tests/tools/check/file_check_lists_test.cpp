@@ -29,17 +29,19 @@ TEST_F(FileCheckOfLists, FindsBlocksThatAreNotListed) {
   expect_found("MASK_BLOCKS", has_long_list, [](RawMaskPage& page) {
     --page.block_counts[0];
     --page.head.block_link_count;
-    page.block_links.erase(page.block_links.begin());
+    page.block_pages.erase(page.block_pages.begin());
+    page.block_numbers.erase(page.block_numbers.begin());
     page.block_octants.erase(page.block_octants.begin());
   });
 }
 
 TEST_F(FileCheckOfLists, FindsLinksInListsThatLeadToNoBlock) {
-  // The slot after the first slot of a block is not the first slot of any block.
+  // No page of 4 KiB has as many blocks as the format would allow.
   expect_found("MASK_BLOCKS", has_lists, [](RawMaskPage& page) {
     ++page.block_counts[page.block_counts.size() - 1];
     ++page.head.block_link_count;
-    page.block_links.push_back(page.block_links.back() + 1);
+    page.block_pages.push_back(page.block_pages.back());
+    page.block_numbers.push_back(15);
     page.block_octants.push_back(1);
   });
 }

@@ -158,23 +158,28 @@ TEST_F(FileCheckOfMasks, FindsWrongCountsInTheHeader) {
   EXPECT_EQ(codes_with([](auto& model) { --model.mask_levels; }), Codes{"COUNT"});
 }
 
-bool has_links(const RawMaskPage& page) { return page.page_links.size() > 1; }
+bool has_links(const RawMaskPage& page) { return page.linked_pages.size() > 1; }
 
 TEST_F(FileCheckOfMasks, FindsLinksThatLeadNowhere) {
   for (const int by : {1, -1, 400})
     for (const bool full : {true, false}) {
       const Codes codes = codes_of_change(
           sphere(), has_links,
-          [&](RawMaskPage& page) { page.page_links[1] += static_cast<std::uint32_t>(by); }, full);
-      // The slot before or after a family of one member may be the start of another family.
+          [&](RawMaskPage& page) {
+            page.linked_records[1] = static_cast<std::uint16_t>(page.linked_records[1] + by);
+          },
+          full);
+      // The record before or after a family of one member may be the start of another family.
       EXPECT_TRUE(codes.contains("LINK_TARGET") || codes.contains("LINK_TWICE")) << by;
       EXPECT_TRUE(codes.contains("SUBTREE_UNLINKED")) << by;
     }
 }
 
 TEST_F(FileCheckOfMasks, FindsTwoLinksToOneFamily) {
-  const Codes codes = codes_of_change(
-      sphere(), has_links, [](RawMaskPage& page) { page.page_links[1] = page.page_links[0]; });
+  const Codes codes = codes_of_change(sphere(), has_links, [](RawMaskPage& page) {
+    page.linked_pages[1] = page.linked_pages[0];
+    page.linked_records[1] = page.linked_records[0];
+  });
   EXPECT_TRUE(codes.contains("LINK_TWICE"));
   EXPECT_TRUE(codes.contains("SUBTREE_UNLINKED"));
 }

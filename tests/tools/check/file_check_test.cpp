@@ -109,7 +109,7 @@ TEST_F(FileCheck, RecognisesForeignAndUnsupportedFiles) {
   EXPECT_EQ(codes_of(check(Bytes{})), Codes{"NOT_PLANETREE"});
   auto newer = image();
   newer.change_header(
-      [](storage::FileHeader& header) { header.version = storage::kFormatVersion + 1; });
+      [](storage::FileHeader& header) { header.version = storage::kFormatVersion + 256; });
   newer.seal_header();
   EXPECT_EQ(codes_of(check(newer.bytes())), Codes{"FORMAT_UNSUPPORTED"});
   auto featured = image();
@@ -128,33 +128,32 @@ TEST_F(FileCheck, DistinguishesOneDamagedHeaderFromTwo) {
   EXPECT_EQ(codes_of(check(damaged.bytes())), Codes{"HEADER_LOST"});
 }
 
-TEST_F(FileCheck, ChecksEachPageWhereTheTableIsDamaged) {
+TEST_F(FileCheck, ChecksEachPageWhereTheDirectoryIsDamaged) {
   auto damaged = image();
-  damaged.change_entry(1, [](storage::PageEntry& entry) { entry.check ^= 1; });
+  damaged.change_entry(1, [](storage::DirectoryPage& entry) { entry.check ^= 1; });
   const CheckReport report = check(damaged.bytes());
-  EXPECT_EQ(codes_of(report), (Codes{"TABLE", "PAGE_CHECKSUM"}));
+  EXPECT_EQ(codes_of(report), (Codes{"DIRECTORY", "PAGE_CHECKSUM"}));
   EXPECT_EQ(report.pages, damaged.header().page_count - 1);
 }
 
 TEST_F(FileCheck, RefusesImpossibleEntries) {
-  const auto codes_with = [this](const std::function<void(storage::PageEntry&)>& change) {
+  const auto codes_with = [this](const std::function<void(storage::DirectoryPage&)>& change) {
     auto damaged = image();
     damaged.change_entry(1, change);
-    damaged.seal_table();
+    damaged.seal_directory();
     damaged.seal_header();
     return codes_of(check(damaged.bytes()));
   };
-  const Codes expected = {"TABLE", "PAGE_ENTRY"};
-  EXPECT_EQ(codes_with([](auto& entry) { entry.offset = ~std::uint64_t{0}; }), expected);
+  const Codes expected = {"DIRECTORY", "PAGE_ENTRY"};
   EXPECT_EQ(codes_with([](auto& entry) { entry.stored_bytes = ~std::uint32_t{0}; }), expected);
   EXPECT_EQ(codes_with([](auto& entry) { entry.raw_bytes = ~std::uint32_t{0}; }), expected);
-  EXPECT_EQ(codes_with([](auto& entry) { entry.codec = storage::Codec{7}; }), expected);
+  EXPECT_EQ(codes_with([](auto& entry) { entry.raw_bytes = 0; }), expected);
 }
 
 TEST_F(FileCheck, ContinuesAfterAPageThatCannotBeRead) {
   const auto intact = storage::PageFile::open(tree_);
   ASSERT_TRUE(intact);
-  const std::uint64_t offset = intact->entries()[2].offset;
+  const std::uint64_t offset = intact->entry(2)->offset;
   MemoryFile file(bytes_);
   file.fail_reads_at(offset);
   const CheckReport report = check(file);

@@ -123,7 +123,7 @@ inline void forge(const std::filesystem::path& from, const std::filesystem::path
                   const Forgery& forgery) {
   const auto file = storage::PageFile::open(from);
   ASSERT_TRUE(file);
-  auto writer = storage::PageWriter::create(to, file->page_count(), true);
+  auto writer = storage::PageWriter::create(to, file->page_count(), {}, true);
   ASSERT_TRUE(writer);
   octree::BlockShape shape;
   shape.float64 = file->header().model.vertex_kind == storage::VertexKind::kFloat64;
@@ -155,7 +155,7 @@ inline void forge(const std::filesystem::path& from, const std::filesystem::path
   };
   std::vector<std::byte> scratch(file->header().max_stored_bytes);
   for (std::uint32_t page = 0; page < file->page_count(); ++page) {
-    const storage::PageEntry& entry = file->entries()[page];
+    const storage::PageEntry entry = *file->entry(page);
     std::vector<std::byte> raw(entry.raw_bytes);
     ASSERT_TRUE(file->read_page(page, scratch, raw));
     if (page == first_cap_page && page < first_field_page) writer->begin_caps();
@@ -166,7 +166,7 @@ inline void forge(const std::filesystem::path& from, const std::filesystem::path
     storage::StoredPage stored = storage::compress_page(bytes);
     forgery.stored(page, stored);
     const auto raw_bytes = static_cast<std::uint32_t>(bytes.size());
-    ASSERT_TRUE(writer->append(entry.octcode, entry.ordinal, raw_bytes, stored));
+    ASSERT_TRUE(writer->append(entry.octcode, raw_bytes, stored));
   }
   storage::ModelRecord model = file->header().model;
   forgery.model(model);

@@ -131,7 +131,7 @@ TEST_F(CommandAttributes, AreInspectedAndVerified) {
   EXPECT_EQ(seen["layers"]["attributes"]["pages"], 1);
   EXPECT_EQ(seen["attributes"], Json({"triangles", "uv", "value"}));
   EXPECT_GT(seen["bytes"]["attribute_pages"], 0);
-  EXPECT_EQ(seen["bytes"]["within_pages"]["attributes"], 2 * (4 + 24 + 8));
+  EXPECT_EQ(seen["bytes"]["within_pages"]["attributes"], 2 * (6 + 24 + 8));
   EXPECT_EQ(seen["issue_count"], 0);
   bool is_listed = false;
   for (const Json& page : seen["by_page"])
@@ -142,7 +142,7 @@ TEST_F(CommandAttributes, AreInspectedAndVerified) {
       const Json details =
           Json::parse(run({"inspect", "square.ptree", "--page", number, "--json"}).output);
       EXPECT_EQ(details["head"]["triangle_count"], 2);
-      EXPECT_EQ(details["streams"].size(), 4u);
+      EXPECT_EQ(details["streams"].size(), 5u);
     }
   EXPECT_TRUE(is_listed);
   EXPECT_EQ(run({"verify", "square.ptree", "--full"}).status, 0);

@@ -29,7 +29,8 @@ class Command : public testing::Test {
     const auto file = storage::PageFile::open("tree.ptree");
     ASSERT_TRUE(file);
     ASSERT_GT(file->page_count(), 2u);
-    entries_.assign(file->entries().begin(), file->entries().end());
+    for (std::uint32_t page = 0; page < file->page_count(); ++page)
+      entries_.push_back(*file->entry(page));
   }
   void TearDown() override { fs::current_path(before_); }
 

@@ -22,8 +22,8 @@ TEST_F(Command, InspectReportsSizesThatAddUp) {
   EXPECT_EQ(report["box"]["upper"][0], 14.0);
   EXPECT_EQ(report["file_bytes"], fs::file_size("tree.ptree"));
   std::uint64_t sum = 0;
-  for (const char* section :
-       {"headers", "page_table", "distance_pages", "cap_pages", "field_pages", "mask_pages"})
+  for (const char* section : {"headers", "directory", "distance_pages", "cap_pages", "field_pages",
+                              "mask_pages", "extensions"})
     sum += report["bytes"][section].get<std::uint64_t>();
   EXPECT_EQ(sum, fs::file_size("tree.ptree"));
   std::uint64_t nodes = 0, triangles = 0, in_pages = 0, raw = 0, streams = 0;
@@ -54,7 +54,7 @@ TEST_F(Command, InspectListsTheStreamsOfMaskPages) {
   EXPECT_EQ(streams, raw);
   const std::string last = std::to_string(report["pages"].get<int>() - 1);
   const Json page = Json::parse(run({"inspect", boxes, "--page", last, "--json"}).output);
-  EXPECT_EQ(page["streams"].size(), 1u + 20u);
+  EXPECT_EQ(page["streams"].size(), 1u + 22u);
   std::uint64_t end = 0;
   for (const Json& stream : page["streams"]) {
     EXPECT_EQ(stream["offset"], end) << stream;
@@ -124,7 +124,8 @@ TEST_F(Command, InspectShowsOnePage) {
   const Outcome result = run({"inspect", "tree.ptree", "--page", "0", "--json"});
   ASSERT_EQ(result.status, 0) << result.errors;
   const Json page = Json::parse(result.output);
-  EXPECT_EQ(page["entry"]["offset"], 760 + 40 * entries_.size());
+  EXPECT_EQ(page["entry"]["offset"],
+            storage::kHeaderBytes + storage::kDirectoryEntryBytes * entries_.size());
   EXPECT_EQ(page["head"]["page_number"], 0);
   std::uint64_t bytes = 0;
   for (const Json& stream : page["streams"]) {

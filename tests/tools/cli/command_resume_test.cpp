@@ -13,8 +13,8 @@ namespace {
 class CommandResume : public Command {
  protected:
   static Outcome resume(std::vector<std::string> more = {}) {
-    std::vector<std::string> arguments{"build",    "mesh.obj",    "-o", "new.ptree",
-                                       "--resume", "--page-size", "4K"};
+    std::vector<std::string> arguments{"build",       "mesh.obj", "-o",     "new.ptree", "--resume",
+                                       "--page-size", "4K",       "--meta", "generator="};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run(arguments);
   }

@@ -103,7 +103,7 @@ TEST(Why, InspectCountsColoursByLevel) {
   EXPECT_EQ(sum["white"].get<int>() + sum["black"].get<int>() + sum["grey"].get<int>(),
             8 * divided + 1);
   const std::uint64_t bytes = report["bytes"]["headers"].get<std::uint64_t>() +
-                              report["bytes"]["page_table"].get<std::uint64_t>() +
+                              report["bytes"]["directory"].get<std::uint64_t>() +
                               report["bytes"]["distance_pages"].get<std::uint64_t>() +
                               report["bytes"]["field_pages"].get<std::uint64_t>() +
                               report["bytes"]["mask_pages"].get<std::uint64_t>();

@@ -9,6 +9,7 @@
 #include "storage/file/file_layout.h"
 #include "tests/storage/system/temporary_directory.h"
 #include "tests/tools/cli/captured_console.h"
+#include "tools/cli/file_text.h"
 #include "tools/command.h"
 
 namespace planetree::tools {
@@ -51,7 +52,7 @@ TEST(Help, ShowsVersionOfProjectAndFormat) {
   const Outcome result = run({"--version"});
   EXPECT_EQ(result.status, 0);
   EXPECT_EQ(result.output, "planetree " PLANETREE_VERSION " (file format " +
-                               std::to_string(storage::kFormatVersion) + ")\n");
+                               format_version_text(storage::kFormatVersion) + ")\n");
   EXPECT_EQ(run({"build", "--version"}).status, kCommandLineAtFault);
 }
 

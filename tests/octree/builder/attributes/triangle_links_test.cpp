@@ -12,7 +12,7 @@
 namespace planetree::octree {
 namespace {
 
-// The links of decoded pages, as traversals see them.
+// The numbered links of the blocks of decoded pages.
 std::map<std::uint64_t, std::uint32_t> links_of(const ChunkedTree& sample) {
   std::map<std::uint64_t, std::uint32_t> links;
   for (std::uint32_t number = 0; number < sample.tree->pages().size(); ++number) {
@@ -21,10 +21,10 @@ std::map<std::uint64_t, std::uint32_t> links_of(const ChunkedTree& sample) {
     const auto raw = sample.tree->pages().encode(number);
     EXPECT_TRUE(raw && decode_page(raw->bytes, info, frame.bytes()));
     std::uint32_t slot = frame.header().first_block_slot;
-    for (std::uint32_t block = 0; block < frame.header().block_count; ++block) {
+    for (std::uint16_t block = 0; block < frame.header().block_count; ++block) {
       const BlockView view(frame.data() + slot * kSlotBytes, sample.shape);
       for (unsigned i = 0; i < view.triangle_count(); ++i)
-        links[view.id(i)] = LinkFormat(info.page_bytes).make(true, number, slot);
+        links[view.id(i)] = LinkFormat(info.page_bytes).make_numbered({number, block});
       slot += view.slots();
     }
   }

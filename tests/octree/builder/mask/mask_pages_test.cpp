@@ -109,7 +109,9 @@ class FrameWalk {
     }
     const std::uint32_t page = links_.page(node.family);
     std::uint32_t slot = links_.slot(node.family);
-    EXPECT_EQ(node.family, pages_.plan().families[step.entry]);
+    const StoredLink planned = pages_.plan().families[step.entry];
+    EXPECT_EQ(page, planned.page);
+    EXPECT_EQ(slot, mask_head_slots(pages_.plan().page_bytes) + planned.record);
     const MaskHeader& head = header_of(pages_.frame(page));
     const bool first = slot - head.first_record_slot < head.root_count;
     EXPECT_EQ(first, page != step.page);
@@ -159,7 +161,7 @@ TEST(MaskPagesTest, HoldEveryEntryAtEveryPageSize) {
       for (SpecialCell& special : rounded.specials)
         for (Triangle& plane : special.planes)
           for (Point& corner : plane) corner = corner.cast<float>().cast<double>();
-    const MaskPages pages(rounded, page_bytes, 7, float64);
+    const MaskPages pages(rounded, page_bytes, kRandomMaskPage, float64);
     FrameWalk walk(rounded, pages);
     walk.run();
     ASSERT_EQ(walk.parents().size(), pages.size() - 1);
@@ -167,7 +169,7 @@ TEST(MaskPagesTest, HoldEveryEntryAtEveryPageSize) {
     for (const auto& [page, octcode] : walk.keys()) {
       EXPECT_EQ(pages.plan().pages[page].octcode, octcode);
       EXPECT_EQ(header_of(pages.frame(page)).octcode, octcode);
-      EXPECT_EQ(header_of(pages.frame(page)).page_number, 7 + page);
+      EXPECT_EQ(header_of(pages.frame(page)).page_number, kRandomMaskPage + page);
       if (page > 0) {
         EXPECT_LT(pages.plan().pages[page - 1].octcode, octcode);
       }

@@ -101,7 +101,6 @@ TEST(TreeFrames, MatchDecodedMaskPages) {
     info.page_count = model.mask.size();
     info.page_number = first + i;
     info.octcode = raw->octcode;
-    info.ordinal = raw->ordinal;
     SampleFrame expected(4096);
     ASSERT_TRUE(decode_mask_page(raw->bytes, info, expected.bytes()));
     const std::byte* frame = page_of(frames, first + i);

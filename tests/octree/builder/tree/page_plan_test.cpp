@@ -29,59 +29,54 @@ std::vector<Case> cases() {
           {"long triangles, float64", scattered(1500, 1.0)}};
 }
 
-// Walks a tree's records and where treelets are cut.
+// Walks a tree's nodes and where treelets are cut.
 class CutWalk {
  public:
-  CutWalk(const SampleTree& sample, const TreeletCut& cut) : sample_(sample), cut_(cut) {
-    node_visits_.resize(sample.tree.nodes.size());
-    block_visits_.resize(sample.tree.blocks.size());
-  }
+  CutWalk(const WideTree& tree, const RecordSlots& slots, const TreeletCut& cut)
+      : tree_(tree), slots_(slots), cut_(cut), visits_(tree.nodes.size()) {}
 
-  // Number of slots of the treelet with root `record`.
-  std::uint32_t slots(RecordRef record) {
-    if (record.block) {
-      ++block_visits_[record.index];
-      return sample_.block_slots[record.index];
-    }
-    ++node_visits_[record.index];
-    const WideNode& node = sample_.tree.nodes[record.index];
+  // Number of slots of the treelet with root `at`.
+  std::uint32_t slots(std::uint32_t at) {
+    ++visits_[at];
+    const WideNode& node = tree_.nodes[at];
     std::uint32_t sum = kNodeSlots;
     for (unsigned i = 0; i < node.child_count; ++i) {
       const WideChild& child = node.children[i];
-      const bool apart = child.block ? cut_.cut_blocks[child.index] : cut_.cut_nodes[child.index];
-      if (!apart) sum += slots({child.block, child.index});
+      if (child.block)
+        sum += slots_.blocks[child.index];
+      else if (!cut_.cut_nodes[child.index])
+        sum += slots(child.index);
     }
     return sum;
   }
 
-  void expect_each_record_once() const {
-    const auto once = [](const std::vector<unsigned>& visits) {
-      return std::ranges::all_of(visits, [](unsigned count) { return count == 1; });
-    };
-    EXPECT_TRUE(once(node_visits_));
-    EXPECT_TRUE(once(block_visits_));
+  void expect_each_node_once() const {
+    EXPECT_TRUE(std::ranges::all_of(visits_, [](unsigned count) { return count == 1; }));
   }
 
  private:
-  const SampleTree& sample_;
+  const WideTree& tree_;
+  const RecordSlots slots_;
   const TreeletCut& cut_;
-  std::vector<unsigned> node_visits_, block_visits_;
+  std::vector<unsigned> visits_;
 };
 
-TEST(Treelets, HoldEveryRecordOnceAndKeepTheirLimits) {
+TEST(Treelets, HoldEveryNodeOnceAndKeepTheirLimits) {
   for (const Case& c : cases()) {
     SCOPED_TRACE(c.name);
     const SampleTree sample = build_sample(c.soup);
-    for (const auto& [bottom, upper] : {std::pair(32u, 62u), std::pair(64u, 256u),
-                                        std::pair(32u, 32u), std::pair(1024u, 4000u)}) {
-      const TreeletCut cut =
-          cut_treelets(sample.tree, {kNodeSlots, sample.block_slots}, bottom, upper);
-      CutWalk walk(sample, cut);
+    if (sample.tree.nodes.empty()) continue;
+    const RecordSlots slots{kNodeSlots, sample.block_slots};
+    const std::uint32_t least = bottom_slots(4096, slots);
+    for (const auto& [bottom, upper] : {std::pair(least, 62u), std::pair(64u, 256u),
+                                        std::pair(least, least), std::pair(1024u, 4000u)}) {
+      const TreeletCut cut = cut_treelets(sample.tree, slots, bottom, upper);
+      CutWalk walk(sample.tree, slots, cut);
       for (const Treelet& treelet : cut.treelets) {
         EXPECT_EQ(walk.slots(treelet.root), treelet.slots);
         EXPECT_LE(treelet.slots, std::max(bottom, upper));
       }
-      walk.expect_each_record_once();
+      walk.expect_each_node_once();
     }
   }
 }
@@ -91,29 +86,51 @@ TEST(Treelets, FormOneTreeletWhereAllFits) {
   const TreeletCut cut =
       cut_treelets(sample.tree, {kNodeSlots, sample.block_slots}, 100000, 100000);
   ASSERT_EQ(cut.treelets.size(), 1u);
-  EXPECT_EQ(cut.treelets[0].root.index, 0u);
+  EXPECT_EQ(cut.treelets[0].root, 0u);
 }
 
 TEST(Treelets, AreTheLargestSubtreesThatFitAtTheBottom) {
   const SampleTree sample = build_sample(sphere(5));
-  const TreeletCut cut = cut_treelets(sample.tree, {kNodeSlots, sample.block_slots}, 100, 1000);
+  const RecordSlots slots{kNodeSlots, sample.block_slots};
+  const TreeletCut cut = cut_treelets(sample.tree, slots, 100, 1000);
   // Such a treelet is a node and all below it, uncut, while the whole subtree of its parent is too
   // large.
-  const TreeletCut none{{},
-                        std::vector<bool>(sample.tree.nodes.size()),
-                        std::vector<bool>(sample.tree.blocks.size())};
+  const TreeletCut none{{}, std::vector<bool>(sample.tree.nodes.size())};
+  const auto whole = [&](std::uint32_t at) { return CutWalk(sample.tree, slots, none).slots(at); };
   std::size_t bottoms = 0;
   for (std::uint32_t at = 0; at < sample.tree.nodes.size(); ++at) {
-    const std::uint32_t own = CutWalk(sample, none).slots({false, at});
+    const std::uint32_t own = whole(at);
     const WideNode& node = sample.tree.nodes[at];
     for (unsigned i = 0; i < node.child_count; ++i) {
       const WideChild& child = node.children[i];
-      if (child.block || CutWalk(sample, none).slots({false, child.index}) > 100) continue;
+      if (child.block || whole(child.index) > 100) continue;
       EXPECT_EQ(cut.cut_nodes[child.index], own > 100);
       bottoms += own > 100;
     }
   }
   EXPECT_GT(bottoms, 20u);
+}
+
+// A node of a block that is too large together with its siblings has no other child. The bounds of
+// the block are those that it had.
+TEST(Treelets, GiveBlocksThatDoNotFitNodesOfTheirOwn) {
+  const SampleTree small = build_sample(scattered(1500, 1.0), 4096);
+  const SampleTree large = build_sample(scattered(1500, 1.0), 262144);
+  EXPECT_EQ(small.tree.blocks.size(), large.tree.blocks.size());
+  const RecordSlots slots{kNodeSlots, small.block_slots};
+  std::size_t alone = 0;
+  for (const WideNode& node : small.tree.nodes) {
+    EXPECT_LE(slots_with_blocks(node, slots), bottom_slots(4096, slots));
+    if (node.child_count > 1) continue;
+    ++alone;
+    const WideChild& child = node.children[0];
+    EXPECT_TRUE(child.block);
+    EXPECT_EQ(node.height, 1);
+    EXPECT_TRUE(node.box.holds(child.box));
+  }
+  EXPECT_GT(alone, 20u);
+  EXPECT_EQ(small.tree.nodes.size(), large.tree.nodes.size() + alone);
+  for (const WideNode& node : large.tree.nodes) EXPECT_GT(node.child_count, 1);
 }
 
 using Key = std::pair<std::uint64_t, std::uint32_t>;
@@ -123,22 +140,25 @@ Key key_of(const PlannedPage& page) { return {page.octcode, page.ordinal}; }
 // Checks the pages of a plan and the links between them.
 class PlanCheck {
  public:
-  PlanCheck(const SampleTree& sample)
-      : sample_(sample), plan_(sample.plan), links_(sample.plan.page_bytes) {}
+  explicit PlanCheck(const SampleTree& sample) : sample_(sample), plan_(sample.plan) {}
 
-  void expect_each_record_at_its_slot() const {
+  void expect_each_record_once() const {
     std::vector<unsigned> nodes(sample_.tree.nodes.size()), blocks(sample_.tree.blocks.size());
     for (std::uint32_t number = 0; number < plan_.pages.size(); ++number) {
       const PlannedPage& page = plan_.pages[number];
       std::uint32_t slot = frame_head_slots(plan_.page_bytes);
+      StoredLink link{number, 0};
       for (const std::uint32_t node : page.nodes) {
         ++nodes[node];
-        EXPECT_EQ(plan_.node_links[node], links_.make(false, number, slot));
+        EXPECT_EQ(plan_.node_links[node], link);
+        ++link.record;
         slot += kNodeSlots;
       }
+      link.record = 0;
       for (const std::uint32_t block : page.blocks) {
         ++blocks[block];
-        EXPECT_EQ(plan_.block_links[block], links_.make(true, number, slot));
+        EXPECT_EQ(plan_.block_links[block], link);
+        ++link.record;
         slot += sample_.block_slots[block];
       }
       EXPECT_LE(slot * kSlotBytes, plan_.page_bytes);
@@ -149,17 +169,18 @@ class PlanCheck {
 
   void expect_one_parent_page_each() const {
     std::vector<std::set<std::uint32_t>> parents(plan_.pages.size());
-    std::set<std::uint32_t> roots = root_links();
+    std::set<StoredLink> roots = root_links();
     for (std::uint32_t at = 0; at < sample_.tree.nodes.size(); ++at) {
-      const std::uint32_t own = links_.page(plan_.node_links[at]);
+      const std::uint32_t own = plan_.node_links[at].page;
       const WideNode& node = sample_.tree.nodes[at];
       for (unsigned i = 0; i < node.child_count; ++i) {
         const WideChild& child = node.children[i];
-        const std::uint32_t link =
+        const StoredLink link =
             child.block ? plan_.block_links[child.index] : plan_.node_links[child.index];
-        if (links_.page(link) == own) continue;
-        EXPECT_GT(links_.page(link), own);
-        parents[links_.page(link)].insert(own);
+        if (link.page == own) continue;
+        EXPECT_FALSE(child.block);
+        EXPECT_GT(link.page, own);
+        parents[link.page].insert(own);
         EXPECT_EQ(roots.erase(link), 1u) << "a link to a record that is no root";
       }
     }
@@ -174,20 +195,18 @@ class PlanCheck {
   }
 
  private:
-  std::set<std::uint32_t> root_links() const {
-    std::set<std::uint32_t> roots;
+  std::set<StoredLink> root_links() const {
+    std::set<StoredLink> roots;
     for (const PlannedPage& page : plan_.pages) {
-      for (std::size_t i = 0; i < page.root_node_count; ++i)
+      if (page.nodes.empty()) roots.insert(plan_.block_links[page.blocks[0]]);
+      for (std::size_t i = 0; i < page.root_count; ++i)
         roots.insert(plan_.node_links[page.nodes[i]]);
-      for (std::size_t i = 0; i < page.root_block_count; ++i)
-        roots.insert(plan_.block_links[page.blocks[i]]);
     }
     return roots;
   }
 
   const SampleTree& sample_;
   const PagePlan& plan_;
-  LinkFormat links_;
 };
 
 TEST(PagePlan, IsConsistentForEveryMeshAndPageSize) {
@@ -196,7 +215,7 @@ TEST(PagePlan, IsConsistentForEveryMeshAndPageSize) {
       SCOPED_TRACE(std::string(c.name) + ", pages of " + std::to_string(page_bytes));
       const SampleTree sample = build_sample(c.soup, page_bytes);
       const PlanCheck check(sample);
-      check.expect_each_record_at_its_slot();
+      check.expect_each_record_once();
       check.expect_one_parent_page_each();
       check.expect_ascending_keys();
     }
@@ -204,7 +223,7 @@ TEST(PagePlan, IsConsistentForEveryMeshAndPageSize) {
 
 TEST(PagePlan, GivesTheRootPageZero) {
   const SampleTree sample = build_sample(sphere(5));
-  EXPECT_EQ(LinkFormat(4096).page(sample.plan.node_links[0]), 0u);
+  EXPECT_EQ(sample.plan.node_links[0], (StoredLink{0, 0}));
   EXPECT_EQ(sample.plan.pages[0].nodes[0], 0u);
 }
 
@@ -226,7 +245,7 @@ TEST(PagePlan, FillsItsPages) {
 TEST(PagePlan, NamesPagesByCellsThatHoldTheirFirstSubtree) {
   const SampleTree sample = build_sample(sphere(5));
   for (const PlannedPage& page : sample.plan.pages) {
-    if (page.root_node_count == 0) continue;
+    if (page.root_count == 0) continue;
     const Cell cell = cell_of_octcode(page.octcode);
     EXPECT_LE(cell.level, kLevels);
     EXPECT_LE(cell.within, 2u);

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+
+#include "planetree/error.h"
+#include "storage/file/directory_check.h"
+#include "storage/file/directory_shape.h"
+#include "storage/file/file_layout.h"
+#include "storage/system/file_handle.h"
+
+namespace planetree::storage {
+
+/// The directory of an open file. Each block is checked when it is read.
+///
+/// Up to kMaxBlocks blocks are kept in memory. A directory that has no more is read whole when the
+/// file is opened. Of a greater one, the root is read then and other blocks when they are needed;
+/// those that were used last stay.
+///
+/// threads  any number at once; they wait for each other where blocks are read when needed
+class Directory {
+ public:
+  static constexpr std::uint64_t kMaxBlocks = 256;  ///< of 131,072 pages, in 3 MiB
+
+  /// Allocates no more memory than the directory is long.
+  ///
+  /// header  must have passed check_header()
+  /// errors  kNoMemory, kReadFailed, kDamaged
+  static Result<Directory> open(const FileHandle& file, const FileHeader& header) noexcept;
+
+  /// Returns where a page is.
+  ///
+  /// page    below header.page_count
+  /// errors  kReadFailed, kTruncated, kDamaged
+  Result<PageEntry> entry(const FileHandle& file, const FileHeader& header,
+                          std::uint32_t page) const noexcept;
+  /// Returns the same if that reads nothing from the file.
+  std::optional<PageEntry> kept_entry(const FileHeader& header, std::uint32_t page) const noexcept;
+
+  /// Bytes of memory that the blocks take.
+  std::uint64_t memory_bytes() const noexcept {
+    return slot_count_ == 1 ? shape_.bytes() : slot_count_ * DirectoryShape::kBlockBytes;
+  }
+
+ private:
+  struct Slot {
+    std::uint64_t number = kNothing;  // of the block, counted from the root on
+    std::uint64_t last_use = 0;
+  };
+  struct Kept {
+    std::mutex mutex;
+    std::uint64_t uses = 0;
+    std::unique_ptr<Slot[]> slots;
+    std::unique_ptr<std::byte[]> bytes;
+  };
+  static constexpr std::uint64_t kNothing = ~std::uint64_t{0};
+
+  explicit Directory(std::uint32_t page_count) noexcept : shape_(page_count) {}
+  Result<void> read_all(const FileHandle& file, const FileHeader& header) noexcept;
+  bool keeps_all() const noexcept { return slot_count_ == shape_.blocks(); }
+  Result<PageEntry> find(const FileHandle* file, const FileHeader& header,
+                         std::uint32_t page) const noexcept;
+  Result<std::span<const std::byte>> block(const FileHandle* file, const FileHeader& header,
+                                           const DirectoryPlace& place) const noexcept;
+  Result<void> read(const FileHandle& file, const FileHeader& header, const DirectoryPlace& place,
+                    std::span<std::byte> out) const noexcept;
+  std::uint64_t slot_of(std::uint64_t number) const noexcept;
+
+  DirectoryShape shape_;
+  std::uint64_t slot_count_ = 0;
+  std::unique_ptr<Kept> kept_;
+};
+
+}  // namespace planetree::storage

@@ -1,0 +1,77 @@
+#include "tools/report/build_report.h"
+
+#include <fmt/format.h>
+
+#include "tools/cli/attribute_option.h"
+#include "tools/cli/file_text.h"
+#include "tools/cli/layer_words.h"
+#include "tools/cli/size_text.h"
+#include "tools/cli/subcommand.h"
+
+namespace planetree::tools {
+namespace {
+
+double bytes_per_triangle(const BuildReport& built) {
+  return static_cast<double>(built.file_bytes) / static_cast<double>(built.triangles);
+}
+
+}  // namespace
+
+std::string json_report(const BuildRecord& record, const std::string& sha256) {
+  const BuildReport& built = record.built;
+  nlohmann::ordered_json report = {
+      {"input", record.input.string()},
+      {"file", record.output.string()},
+      {"triangles", built.triangles},
+      {"input_triangles", built.input_triangles},
+      {"skipped", built.skipped},
+      {"first_skipped", nullptr},
+      {"nonplanar_polygons", built.nonplanar_polygons},
+      {"fanned_polygons", built.fanned_polygons},
+      {"notes", built.notes},
+      {"vertices", built.vertices},
+      {"watertight", built.watertight()},
+      {"unbalanced_edges", built.unbalanced_edges},
+      {"side_rule", built.side_rule == SideRule::kSurface ? "surface" : "solid"},
+      {"openness", built.openness},
+      {"metadata", record.options.metadata},
+      {"layers", layer_words(built.layers)},
+      {"attributes", attribute_words(built.attributes)},
+      {"levels", built.levels},
+      {"nodes", built.nodes},
+      {"blocks", built.blocks},
+      {"pages", built.pages},
+      {"page_bytes", record.options.page_bytes},
+      {"file_bytes", built.file_bytes},
+      {"bytes_per_triangle", bytes_per_triangle(built)},
+      {"seconds", record.seconds},
+      {"seconds_by_phase", record.seconds_by_phase},
+      {"triangles_per_second", static_cast<double>(built.input_triangles) / record.seconds},
+      {"peak_resident_bytes", built.peak_resident_bytes},
+      {"temporary_bytes", built.temporary_bytes},
+      {"sha256", sha256},
+      {"content_id", content_id_text(built.content_id)}};
+  if (built.first_skipped != kNoTriangle) report["first_skipped"] = built.first_skipped;
+  return json_line(report);
+}
+
+std::string plain_report(const BuildRecord& record) {
+  const BuildReport& built = record.built;
+  const std::string part =
+      record.options.box ? " of " + grouped_count(built.input_triangles) : std::string();
+  const std::string surface = built.watertight()
+                                  ? "watertight"
+                                  : grouped_count(built.unbalanced_edges) + " unbalanced edges";
+  const std::string sheet = built.side_rule == SideRule::kSurface ? ", a sheet" : "";
+  const std::string strays =
+      built.strays > 0 ? grouped_count(built.strays) + " of them far outside, " : std::string();
+  return fmt::format(
+      "{}: {}{} triangles, {}{}, {} in {} pages ({:.1f} bytes a triangle), in {:.1f} s ({} "
+      "triangles/s), {} peak memory\n",
+      record.output.string(), grouped_count(built.triangles), part, strays, surface + sheet,
+      short_bytes(built.file_bytes), grouped_count(built.pages), bytes_per_triangle(built),
+      record.seconds, short_count(static_cast<double>(built.input_triangles) / record.seconds),
+      short_bytes(built.peak_resident_bytes));
+}
+
+}  // namespace planetree::tools
