@@ -11,10 +11,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double share(std::uint64_t part, std::uint64_t whole) {
-  return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
-}
-
 std::string mask_levels_text(const FileSurvey& survey) {
   std::string text = fmt::format("{:>5} {:>13} {:>13} {:>15} {:>13} {:>15}\n", "mask", "white",
                                  "black", "grey", "with corners", "special");
@@ -28,6 +24,10 @@ std::string mask_levels_text(const FileSurvey& survey) {
 }
 
 }  // namespace
+
+double share(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
+}
 
 Json mask_row_json(const MaskLevelRow& row) {
   return {{"white", row.white},

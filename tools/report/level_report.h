@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -7,6 +8,9 @@
 
 /// The levels of a file's tree and of its mask.
 namespace planetree::tools {
+
+/// `part` / `whole`; 0 if both are 0.
+[[nodiscard]] double share(std::uint64_t part, std::uint64_t whole);
 
 [[nodiscard]] nlohmann::ordered_json mask_row_json(const MaskLevelRow& row);
 

@@ -20,10 +20,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double share(std::uint64_t part, std::uint64_t whole) {
-  return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
-}
-
 MaskLevelRow mask_sum(const FileSurvey& survey) {
   MaskLevelRow sum;
   for (const MaskLevelRow& row : survey.mask) {
