@@ -44,6 +44,7 @@ CheckReport check_file(FileParts& parts, bool full, const CheckProgress& progres
   if (parts.header() == nullptr) return report;
   const storage::FileHeader& header = *parts.header();
   check_model(header.model, report.issues);
+  if (parts.page_count() == 0) return report;  // the file ends within its directory
   std::optional<GeometryCheck> surface, caps;
   if (full) surface.emplace(header, report.issues);
   const TreeSection of_surface = TreeSection::of_surface(parts);
