@@ -220,7 +220,7 @@ Result<InstanceId> SceneState::add(const std::filesystem::path& path, const Pose
   if ((layers & ~kAllLayers) != 0)
     return bad_argument("the layers of an instance are those of planetree/layers.h");
   const auto free = std::find_if(
-      memory_.slots.begin(), memory_.slots.end(),
+      memory_.slots.begin() + first_free_, memory_.slots.end(),
       [](const InstanceSlot& slot) { return !slot.model.load(std::memory_order_relaxed); });
   if (free == memory_.slots.end())
     return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
@@ -239,6 +239,7 @@ Result<InstanceId> SceneState::add(const std::filesystem::path& path, const Pose
   free->model.store(*model, std::memory_order_seq_cst);
   ++(*model)->instances;
   ++instances_;
+  first_free_ = index + 1;
   if (index >= used_slots_.load(std::memory_order_relaxed))
     used_slots_.store(index + 1, std::memory_order_release);
   sections_->count_change();
@@ -264,6 +265,7 @@ Result<void> SceneState::remove(InstanceId instance) {
   sections_->count_change();
   wait_for_sections();
   --instances_;
+  first_free_ = std::min(first_free_, slot_of(instance));
   const auto model = std::find_if(models_.begin(), models_.end(),
                                   [removed](const auto& each) { return each.get() == removed; });
   if (--(*model)->instances == 0) close(**model);

@@ -95,6 +95,7 @@ class SceneState {
   std::atomic<std::uint32_t> used_slots_{0};
   std::uint32_t added_ = 0;  // instances so far
   std::uint32_t instances_ = 0;
+  std::uint32_t first_free_ = 0;  // all slots below have instances
   std::unique_ptr<ScenePager> pager_;
   std::vector<cache::Reader> fetch_readers_;  // with the indices from 0 on
   std::optional<cache::Reader> loader_;       // reads grids and fields of files that are added

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "query/scene/instance_table.h"
 #include "tests/query/answer_bits.h"
 #include "tests/query/eventually.h"
 #include "tests/query/scene/scene_fixture.h"
@@ -200,6 +201,19 @@ TEST_F(SceneTest, RemovesInstancesAndClosesTheirFiles) {
     EXPECT_EQ(scene.info(gone).error().code, ErrorCode::kBadArgument);
     EXPECT_EQ(scene.memory(gone).error().code, ErrorCode::kBadArgument);
   }
+}
+
+TEST_F(SceneTest, TakesTheFirstFreePlaceForAnInstance) {
+  Scene scene = make_scene();
+  std::vector<InstanceId> ids;
+  const auto add_one = [&] { ids.push_back(add(scene, ball_)); };
+  for (int i = 0; i < 5; ++i) add_one();
+  ASSERT_TRUE(scene.remove(ids[3]));
+  ASSERT_TRUE(scene.remove(ids[1]));
+  for (int i = 0; i < 3; ++i) add_one();
+  EXPECT_EQ(slot_of(ids[5]), 1u);
+  EXPECT_EQ(slot_of(ids[6]), 3u);
+  EXPECT_EQ(slot_of(ids[7]), 5u);
 }
 
 TEST_F(SceneTest, TellsWhatAModelHolds) {
