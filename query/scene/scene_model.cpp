@@ -38,7 +38,8 @@ Result<std::unique_ptr<SceneModel>> SceneModel::open(const std::filesystem::path
   const storage::FileHeader& header = file->header();
   if (const auto checked = check_tree_header(header); !checked) return checked.error();
   const std::uint32_t most = choices.max_page_bytes;
-  const std::uint32_t needed = std::max(header.page_bytes, header.max_raw_bytes);
+  std::uint32_t needed = header.page_bytes;
+  while (max_raw_bytes(needed) < header.max_raw_bytes) needed *= 2;
   if (needed > most)
     return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
                       "the file has pages of %u bytes, the scene frames of %u: create the scene "

@@ -85,9 +85,10 @@ cache::CacheLimits SceneState::cache_limits() const noexcept {
 
 PageFiller::Limits SceneState::filler_limits() const noexcept {
   const std::uint32_t page_bytes = options_.max_page_bytes;
+  const std::uint64_t raw_bytes = SceneModel::max_raw_bytes(page_bytes);
   return {std::uint64_t{cache_limits().max_readers} + 1,
-          page_bytes,
-          page_bytes,
+          raw_bytes,
+          raw_bytes,
           page_bytes,
           std::chrono::milliseconds(options_.wait_limit_ms),
           options_.use_io_uring};
