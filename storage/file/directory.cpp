@@ -9,16 +9,10 @@ namespace {
 // The entry of a page in its block. Offsets of pages are sums of the lengths before them.
 PageEntry entry_in(const FileHeader& header, const DirectoryPlace& place,
                    std::span<const std::byte> block, std::size_t index) noexcept {
-  PageEntry found{};
-  found.offset = pages_start(header) + place.start;
+  std::uint64_t offset = pages_start(header) + place.start;
   for (std::size_t i = 0; i < index; ++i)
-    found.offset += directory_entry<DirectoryPage>(block, i).stored_bytes;
-  const auto entry = directory_entry<DirectoryPage>(block, index);
-  found.check = entry.check;
-  found.octcode = entry.octcode;
-  found.stored_bytes = entry.stored_bytes;
-  found.raw_bytes = entry.raw_bytes;
-  return found;
+    offset += directory_entry<DirectoryPage>(block, i).stored_bytes;
+  return page_entry(directory_entry<DirectoryPage>(block, index), offset);
 }
 
 Error not_kept() noexcept {
@@ -110,8 +104,7 @@ Result<std::span<const std::byte>> Directory::block(const FileHandle* file,
 
 Result<void> Directory::read(const FileHandle& file, const FileHeader& header,
                              const DirectoryPlace& place, std::span<std::byte> out) const noexcept {
-  const std::uint64_t offset =
-      directory_start(header.extension_count) + shape_.block_offset(place.level, place.block);
+  const std::uint64_t offset = directory_block_start(header, shape_, place.level, place.block);
   if (const auto done = file.read_at(offset, out, "read the directory"); !done) return done;
   return check_directory_block(header, shape_, place, out);
 }

@@ -21,16 +21,13 @@ class BlockRules {
  private:
   std::size_t count() const noexcept { return shape_.block_entries(place_.level, place_.block); }
   Error fault(const char* cause) const noexcept {
-    return damaged(
-        Error::kNowhere,
-        directory_start(header_.extension_count) + shape_.block_offset(place_.level, place_.block),
-        cause);
+    return damaged(Error::kNowhere,
+                   directory_block_start(header_, shape_, place_.level, place_.block), cause);
   }
   Error fault_of_page(std::uint32_t page, const char* cause) const noexcept {
-    return damaged(page,
-                   directory_start(header_.extension_count) + shape_.block_offset(place_.level, 0) +
-                       page * kDirectoryEntryBytes,
-                   cause);
+    return damaged(
+        page, directory_block_start(header_, shape_, place_.level, 0) + page * kDirectoryEntryBytes,
+        cause);
   }
 
   bool has_hash() const noexcept {
@@ -50,7 +47,7 @@ class BlockRules {
       return "the page's raw length is above the file's largest";
     if (entry.stored_bytes == 0 || entry.stored_bytes > header_.max_stored_bytes)
       return "the page's stored length is zero or above the file's largest";
-    const Codec codec = entry.stored_bytes == entry.raw_bytes ? Codec::kStored : Codec::kLz4;
+    const Codec codec = page_entry(entry, 0).codec();
     return lengths_are_plausible(codec, entry.stored_bytes, entry.raw_bytes)
                ? nullptr
                : "the page's stored length cannot give its raw length";

@@ -37,6 +37,11 @@ Entry directory_entry(std::span<const std::byte> block, std::size_t index) noexc
   return entry;
 }
 
+/// What the entry of a page says of a page that starts at `offset` in the file.
+inline PageEntry page_entry(const DirectoryPage& page, std::uint64_t offset) noexcept {
+  return {offset, page.check, page.octcode, page.stored_bytes, page.raw_bytes};
+}
+
 /// What a block of an upper level states of its entry `index`.
 [[nodiscard]] DirectoryPlace place_below(const DirectoryShape& shape, const DirectoryPlace& place,
                                          std::span<const std::byte> block,

@@ -83,6 +83,14 @@ class DirectoryShape {
   return kHeaderBytes + std::uint64_t{extension_count} * sizeof(ExtensionRecord);
 }
 
+/// Offset of a block of the directory in the file.
+[[nodiscard]] constexpr std::uint64_t directory_block_start(const FileHeader& header,
+                                                            const DirectoryShape& shape,
+                                                            unsigned level,
+                                                            std::uint64_t block) noexcept {
+  return directory_start(header.extension_count) + shape.block_offset(level, block);
+}
+
 /// Offset of page 0 in the file.
 [[nodiscard]] inline std::uint64_t pages_start(const FileHeader& header) noexcept {
   return directory_start(header.extension_count) + DirectoryShape(header.page_count).bytes();

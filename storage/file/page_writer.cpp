@@ -176,9 +176,8 @@ Result<void> PageWriter::write_out(FileHeader& header) {
     return written;
   }
   for (unsigned level = 0; level < directory.shape().levels(); ++level) {
-    const std::uint64_t offset =
-        directory_start(header.extension_count) + directory.shape().block_offset(level, 0);
-    const Result<void> written = file_.write_at(offset, directory.level(level));
+    const Result<void> written = file_.write_at(
+        directory_block_start(header, directory.shape(), level, 0), directory.level(level));
     if (!written) return written;
   }
   const std::span<const std::byte> bytes = std::as_bytes(std::span(&header, 1));

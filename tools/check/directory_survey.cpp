@@ -11,8 +11,8 @@ Result<void> DirectorySurvey::run() {
 Result<void> DirectorySurvey::visit(const storage::DirectoryPlace& place, bool is_certain) {
   const std::size_t count = shape_.block_entries(place.level, place.block);
   std::vector<std::byte> block(count * storage::kDirectoryEntryBytes);
-  const std::uint64_t offset = storage::directory_start(header_.extension_count) +
-                               shape_.block_offset(place.level, place.block);
+  const std::uint64_t offset =
+      storage::directory_block_start(header_, shape_, place.level, place.block);
   if (const auto read = file_.read_at(offset, block); !read) return read;
   const bool was_certain = is_certain;
   if (is_certain) {
@@ -35,8 +35,7 @@ void DirectorySurvey::add_pages(const storage::DirectoryPlace& place,
   if (is_certain) end_ = place.start;
   for (std::size_t i = 0; i < block.size() / storage::kDirectoryEntryBytes; ++i) {
     const auto page = storage::directory_entry<storage::DirectoryPage>(block, i);
-    entries.push_back({storage::pages_start(header_) + end_, page.check, page.octcode,
-                       page.stored_bytes, page.raw_bytes});
+    entries.push_back(storage::page_entry(page, storage::pages_start(header_) + end_));
     end_ += page.stored_bytes;
   }
 }

@@ -54,7 +54,7 @@ class FileImage {
   }
   std::size_t offset_of_entry(std::uint32_t page) const {
     const DirectoryShape shape(header().page_count);
-    return directory_start(header().extension_count) + shape.block_offset(shape.page_level(), 0) +
+    return directory_block_start(header(), shape, shape.page_level(), 0) +
            page * sizeof(DirectoryPage);
   }
   /// Offset in the file of a page's stored bytes, as the entries say.
@@ -114,8 +114,7 @@ class FileImage {
     for (std::uint32_t page = 0; page < pages.size(); ++page) pages[page] = entry(page);
     const DirectoryWriter directory(sealed, pages);
     for (unsigned level = 0; level < directory.shape().levels(); ++level) {
-      const std::size_t offset =
-          directory_start(sealed.extension_count) + directory.shape().block_offset(level, 0);
+      const std::size_t offset = directory_block_start(sealed, directory.shape(), level, 0);
       std::ranges::copy(directory.level(level),
                         bytes_.begin() + static_cast<std::ptrdiff_t>(offset));
     }
