@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "query/file/model_info.h"
+#include "query/file/scene_frames.h"
 #include "query/file/tree_header.h"
 
 namespace planetree::query {
@@ -38,8 +39,7 @@ Result<std::unique_ptr<SceneModel>> SceneModel::open(const std::filesystem::path
   const storage::FileHeader& header = file->header();
   if (const auto checked = check_tree_header(header); !checked) return checked.error();
   const std::uint32_t most = choices.max_page_bytes;
-  std::uint32_t needed = header.page_bytes;
-  while (max_raw_bytes(needed) < header.max_raw_bytes) needed *= 2;
+  const std::uint32_t needed = frame_bytes_for(header);
   if (needed > most)
     return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
                       "the file has pages of %u bytes, the scene frames of %u: create the scene "

@@ -36,12 +36,6 @@ struct SceneModel {
   SceneModel(storage::PageFile its_file, const OpenLayers& its_layers, const ModelInfo& its_info)
       : file(std::move(its_file)), opened(its_layers), info(its_info) {}
 
-  /// Limit of the raw bytes of a page in a scene with frames of `page_bytes`. Lists of the mask can
-  /// be longer in a file than in memory, by less than half.
-  static constexpr std::uint32_t max_raw_bytes(std::uint32_t page_bytes) noexcept {
-    return page_bytes + page_bytes / 2;
-  }
-
   /// Opens a file; join() must follow.
   ///
   /// calls   must outlive the model

@@ -9,6 +9,7 @@
 
 #include "octree/geometry/rigid_transform.h"
 #include "octree/geometry/startup_check.h"
+#include "query/file/scene_frames.h"
 #include "query/serve/cache_counts.h"
 #include "query/shell/vectors.h"
 
@@ -85,7 +86,7 @@ cache::CacheLimits SceneState::cache_limits() const noexcept {
 
 PageFiller::Limits SceneState::filler_limits() const noexcept {
   const std::uint32_t page_bytes = options_.max_page_bytes;
-  const std::uint64_t raw_bytes = SceneModel::max_raw_bytes(page_bytes);
+  const std::uint64_t raw_bytes = max_raw_bytes(page_bytes);
   return {std::uint64_t{cache_limits().max_readers} + 1,
           raw_bytes,
           raw_bytes,

@@ -217,9 +217,8 @@ const std::vector<Layer>& layers() {
        {"fmt", "nlohmann"}},
       {"tools/scene",
        {"tools/session", "tools/report", "tools/check", "tools/answers", "tools/cli",
-        "octree/builder/mesh/stream", "octree/geometry", "storage/file"},
-       {"tools/trace_file", "query/file", "octree/attributes", "octree/field", "octree/page",
-        "storage/system"},
+        "octree/builder/mesh/stream", "octree/geometry", "query/file", "storage/file"},
+       {"tools/trace_file", "octree/attributes", "octree/field", "octree/page", "storage/system"},
        {"fmt", "nlohmann"}},
       // The page shows discs of nodes, which no query returns.
       {"tools/view",

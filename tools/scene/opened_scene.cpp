@@ -1,10 +1,10 @@
 #include "tools/scene/opened_scene.h"
 
 #include <algorithm>
-#include <bit>
 #include <cinttypes>
 #include <utility>
 
+#include "query/file/scene_frames.h"
 #include "storage/file/page_file.h"
 #include "tools/cli/layer_option.h"
 
@@ -22,8 +22,8 @@ Result<SceneOptions> options_for(const SceneDescription& description, const Scen
       failed_file = model.file;
       return file.error();
     }
-    const std::uint32_t bytes = std::max(file->header().page_bytes, file->header().max_raw_bytes);
-    options.max_page_bytes = std::max(options.max_page_bytes, std::bit_ceil(bytes));
+    options.max_page_bytes =
+        std::max(options.max_page_bytes, query::frame_bytes_for(file->header()));
   }
   return options;
 }
