@@ -4,7 +4,6 @@
 #include <chrono>
 #include <condition_variable>
 #include <filesystem>
-#include <map>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -112,9 +111,7 @@ BuildOptions options_of(const py::dict& given) {
   from.take("strict", options.strict);
   from.take("replace", options.replace);
   from.take("side", options.side);
-  if (given.contains("metadata"))
-    for (const auto& [key, text] : py::cast<std::map<std::string, std::string>>(given["metadata"]))
-      options.metadata.emplace(key, text);
+  from.take("metadata", options.metadata);
   if (given.contains("box")) {
     const auto box = py::cast<std::array<std::array<double, 3>, 2>>(given["box"]);
     options.box = Box{{box[0][0], box[0][1], box[0][2]}, {box[1][0], box[1][1], box[1][2]}};

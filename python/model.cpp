@@ -68,15 +68,10 @@ py::dict info_of(const ModelHandle& handle) {
   return told;
 }
 
-py::dict metadata_of(const ModelHandle& handle) {
+Metadata metadata_of(const ModelHandle& handle) {
   const auto pinned = handle.get();
-  const Result<Metadata> metadata = [&] {
-    const py::gil_scoped_release unlocked;
-    return pinned->model().metadata();
-  }();
-  py::dict told;
-  for (const auto& [key, text] : value_of(metadata)) told[py::str(key)] = text;
-  return told;
+  const py::gil_scoped_release unlocked;
+  return value_of(pinned->model().metadata());
 }
 
 py::dict stats_of(const ModelHandle& handle) {
