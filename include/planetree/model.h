@@ -162,7 +162,8 @@ class PLANETREE_API Model {
   ///
   /// return   number of records written. If it is less than accesses.size(), the call has emptied
   ///          all traces.
-  /// threads  any, but no two at the same time. Takes no mutex.
+  /// threads  any, but no two at the same time. Takes no mutex, unless the file has more than
+  ///          130,560 pages: it then looks pages up in the directory, which it may read.
   std::size_t drain_page_trace(std::span<PageAccess> accesses) const noexcept;
 
   /// Returns triangles of the mesh by their indices: corners in the order of the mesh, and what the

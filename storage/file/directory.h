@@ -24,7 +24,7 @@ namespace planetree::storage {
 /// threads  any number at once; they wait for each other where blocks are read when needed
 class Directory {
  public:
-  static constexpr std::uint64_t kMaxBlocks = 256;  ///< of 131,072 pages, in 3 MiB
+  static constexpr std::uint64_t kMaxBlocks = 256;  ///< hold the entries of 130,560 pages, in 3 MiB
 
   /// Allocates no more memory than the directory is long.
   ///
