@@ -9,6 +9,9 @@
 
 namespace planetree::query {
 
+/// A clock that stands still: nothing moves.
+inline FetchWorker::Seconds still_time() { return FetchWorker::Seconds(0); }
+
 /// The worker of a fetch thread that serves all probes of a model, for a test that takes its
 /// steps. The model was opened without fetch threads.
 inline FetchWorker fetch_worker(const ModelState& model, FetchWorker::Clock clock,

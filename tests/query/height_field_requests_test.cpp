@@ -16,8 +16,6 @@ class NoWitness final : public octree::BuildProgress {
   Result<void> progress(octree::BuildPhase, std::uint64_t, std::uint64_t) override { return {}; }
 };
 
-FetchWorker::Seconds still_time() { return FetchWorker::Seconds(1); }
-
 class HeightFieldRequests : public octree::SmallChunks {
  protected:
   HeightFieldRequests() {

@@ -66,8 +66,6 @@ class HinderedFetching : public testing::Test {
   std::uint64_t degraded_ = 0;
 };
 
-FetchWorker::Seconds still_time() { return FetchWorker::Seconds(0); }
-
 // A page takes 100 ticks to read, so one of the fetch requests of 100 ticks is served.
 TEST_F(HinderedFetching, SlowDiskLosesRequestsButDelaysNoAnswer) {
   SlowDisk disk;
