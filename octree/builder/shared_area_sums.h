@@ -23,6 +23,14 @@ class SharedAreaSums {
     sums_.add(sums);
   }
 
+  /// Adds sums of parts that were stored.
+  void add(const AreaSums::Words& words) {
+    const std::lock_guard lock(mutex_);
+    sums_.add(words);
+  }
+
+  /// The sums, to be stored. Call it after the last part.
+  AreaSums::Words words() const { return sums_.words(); }
   /// Returns AreaSums::openness(). Call it after the last part.
   double openness() const { return sums_.openness(); }
 

@@ -19,10 +19,32 @@ Result<SurfaceWork> SurfacePass::run(const Region& region, const BuildMemory& me
                                    return cut.add(chunk);
                                  });
   if (!edges) return edges.error();
+  return close(*edges, boundary, cut, areas);
+}
+
+Result<SurfaceWork> SurfacePass::join(const std::vector<ChunkResults>& parts,
+                                      const BuildMemory& memory, storage::SpillFile& scratch,
+                                      BuildProgress& progress) const {
+  RegionCut cut(frame, Region(), nullptr);
+  SharedAreaSums areas(frame.core_lower(), frame.core_upper());
+  EdgeCensus census(0, scratch);
+  for (const ChunkResults& results : parts) {
+    areas.add(results.areas);
+    cut.add_winding(results.winding);
+    for (const auto& edges : results.edges) census.add_extent(edges);
+  }
+  CapChain boundary(memory.cap_bytes, scratch);
+  const auto edges = list_unbalanced(census, whole, chunks, progress, caps ? &boundary : nullptr);
+  if (!edges) return edges.error();
+  return close(*edges, boundary, cut, areas);
+}
+
+Result<SurfaceWork> SurfacePass::close(const EdgeBalance& edges, CapChain& boundary, RegionCut& cut,
+                                       const SharedAreaSums& areas) const {
   if (caps)
     if (const auto closed = caps->close(boundary, cut); !closed) return closed.error();
   SurfaceWork work;
-  work.edges = *edges;
+  work.edges = edges;
   work.cut = cut.found();
   work.openness = areas.openness();
   return work;

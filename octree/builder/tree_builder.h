@@ -8,6 +8,7 @@
 #include "octree/builder/job/build_options.h"
 #include "octree/builder/job/build_progress.h"
 #include "octree/builder/job/model_frame.h"
+#include "octree/builder/shard_results.h"
 #include "planetree/build.h"
 #include "planetree/error.h"
 #include "storage/file/file_layout.h"
@@ -49,5 +50,16 @@ struct BuildReport {
 Result<BuildReport> build_tree(const BuildInput& input, const std::filesystem::path& output,
                                const BuildOptions& options, BuildProgress& progress,
                                const BuildSeams& seams = {});
+
+/// Writes the tree of a mesh of which other processes have sorted the triangles and built the
+/// chunks: the bytes that build_tree() writes. Joins edges, makes caps, mask and field.
+///
+/// results  of steps that were given the same input, options and seams; without a region.
+/// input    as for build_tree(); only its path is used.
+/// options  as for build_tree(), without `resume`.
+/// errors   as those of build_tree(), but for the input; also kDamaged for results.
+Result<BuildReport> merge_tree(const ShardResults& results, const BuildInput& input,
+                               const std::filesystem::path& output, const BuildOptions& options,
+                               BuildProgress& progress, const BuildSeams& seams = {});
 
 }  // namespace planetree::octree

@@ -37,6 +37,24 @@ void AreaSums::add(const AreaSums& other) {
   area_ += other.area_;
 }
 
+AreaSums::Words AreaSums::words() const {
+  Words words{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto sum = static_cast<Word128>(i < 3 ? vector_[i] : area_);
+    words[2 * i] = static_cast<std::uint64_t>(sum);
+    words[2 * i + 1] = static_cast<std::uint64_t>(sum >> 64);
+  }
+  return words;
+}
+
+void AreaSums::add(const Words& words) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    Int128& sum = i < 3 ? vector_[i] : area_;
+    const Word128 added = Word128{words[2 * i + 1]} << 64 | words[2 * i];
+    sum = static_cast<Int128>(static_cast<Word128>(sum) + added);
+  }
+}
+
 double AreaSums::openness() const {
   if (area_ == 0) return 0;
   const auto area = static_cast<double>(area_);

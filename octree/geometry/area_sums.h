@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "octree/geometry/triangle_distance.h"
@@ -30,11 +31,18 @@ class AreaSums {
   /// Adds the triangles that were added to other sums.
   void add(const AreaSums& other);
 
+  /// The sums as numbers that can be stored: of each the low half, then the high half.
+  using Words = std::array<std::uint64_t, 8>;
+  [[nodiscard]] Words words() const;
+  /// Adds sums that were stored.
+  void add(const Words& words);
+
   /// Returns the openness, 0 to 1; 0 if no triangle has area.
   [[nodiscard]] double openness() const;
 
  private:
   __extension__ using Int128 = __int128;
+  __extension__ using Word128 = unsigned __int128;
 
   static constexpr double kUnit = 0x1p-60;
   /// Limit of an area and of the components of an area vector. Triangles of the core have less,

@@ -48,17 +48,25 @@ SpillFile::SpillFile(std::filesystem::path directory, std::uint64_t held_bytes, 
       calls_(calls) {}
 
 SpillFile::SpillFile(FileHandle file, std::uint64_t size_bytes)
-    : calls_(file.calls()), file_(std::move(file)), next_(size_bytes) {}
+    : calls_(file.calls()), own_(std::move(file)), next_(size_bytes) {}
+
+SpillFile::SpillFile(const FileHandle& file) : calls_(file.calls()), file_(&file) {}
+
+std::uint64_t SpillFile::attach(std::shared_ptr<const ResultFile> file) {
+  assert(attached_.size() < kMaxAttached);
+  attached_.push_back(std::move(file));
+  return attached_.size() * kMaxBytes;
+}
 
 Result<void> SpillFile::open() {
-  if (file_.is_open()) return {};
+  if (file_->is_open()) return {};
   const char* const path = directory_.empty() ? "." : directory_.c_str();
   const FileHandle directory = FileHandle::open(calls_, AT_FDCWD, path, O_RDONLY | O_DIRECTORY);
   if (!directory.is_open()) return spill_error("open the directory for temporary files");
-  file_ = FileHandle::open(calls_, directory.descriptor(), ".", O_TMPFILE | O_RDWR, kMode);
+  own_ = FileHandle::open(calls_, directory.descriptor(), ".", O_TMPFILE | O_RDWR, kMode);
   const bool unknown = errno == EOPNOTSUPP || errno == EISDIR || errno == EINVAL;
-  if (!file_.is_open() && unknown) file_ = open_and_unlink(calls_, directory.descriptor());
-  if (!file_.is_open()) return spill_error("create a temporary file");
+  if (!own_.is_open() && unknown) own_ = open_and_unlink(calls_, directory.descriptor());
+  if (!own_.is_open()) return spill_error("create a temporary file");
   return {};
 }
 
@@ -79,15 +87,20 @@ Result<void> SpillFile::write(std::uint64_t offset, std::span<const std::byte> b
     if (const auto opened = open(); !opened) open_failure_ = opened.error();
   });
   if (open_failure_) return *open_failure_;
-  return file_.write_at(offset, bytes, "write a temporary file");
+  return file_->write_at(offset, bytes, "write a temporary file");
 }
 
 Result<void> SpillFile::read(std::uint64_t offset, std::span<std::byte> out) const {
+  if (offset >= kMaxBytes) {
+    const auto read = attached_[offset / kMaxBytes - 1]->read(offset % kMaxBytes, out);
+    if (!read) failed_ = true;
+    return read;
+  }
   assert(offset + out.size() <= size_bytes());
   const std::size_t held = held_part(offset, out.size());
   if (held > 0) std::memcpy(out.data(), &held_[offset], held);
   if (held == out.size()) return {};
-  const auto read = file_.read_at(offset + held, out.subspan(held), "read a temporary file");
+  const auto read = file_->read_at(offset + held, out.subspan(held), "read a temporary file");
   if (!read) failed_ = true;
   return read;
 }
@@ -97,7 +110,7 @@ Result<void> SpillFile::sync() {
   // learn of them.
   const std::lock_guard lock(syncing_);
   if (sync_failure_) return *sync_failure_;
-  const auto synced = file_.sync_data();
+  const auto synced = file_->sync_data();
   if (!synced) {
     sync_failure_ = synced.error();
     failed_ = true;

@@ -89,7 +89,7 @@ Result<NewFile> NewFile::create(const std::filesystem::path& path, bool replace,
 // Leaves the file closed, without an error, if the system has no unnamed files or no way to name
 // them later.
 Result<void> NewFile::open_unnamed() noexcept {
-  file_ = FileHandle::open(calls(), directory_.descriptor(), ".", O_TMPFILE | O_WRONLY, kMode);
+  file_ = FileHandle::open(calls(), directory_.descriptor(), ".", O_TMPFILE | O_RDWR, kMode);
   if (!file_.is_open()) {
     const bool unknown = errno == EOPNOTSUPP || errno == EISDIR || errno == EINVAL;
     if (unknown) return {};
@@ -105,7 +105,7 @@ Result<void> NewFile::open_named() {
   for (int attempt = 0; attempt < kMaxNameAttempts; ++attempt) {
     std::string name = make_temporary_name();
     file_ = FileHandle::open(calls(), directory_.descriptor(), name.c_str(),
-                             O_CREAT | O_EXCL | O_NOFOLLOW | O_WRONLY, kMode);
+                             O_CREAT | O_EXCL | O_NOFOLLOW | O_RDWR, kMode);
     if (file_.is_open()) {
       temporary_name_ = std::move(name);
       return {};

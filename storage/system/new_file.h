@@ -44,6 +44,9 @@ class NewFile {
   /// errors  those of file_error(), among them kNoSpace.
   Result<void> write_at(std::uint64_t offset, std::span<const std::byte> bytes) const noexcept;
 
+  /// The file, open for reading and writing until it is committed. It belongs to this.
+  const FileHandle& file() const noexcept { return file_; }
+
   /// Makes the file durable, then visible. Call it once.
   /// errors  kAlreadyExists: the name was taken in the meantime; otherwise those of file_error().
   ///         After an error the destination is unchanged, with one exception: if the directory

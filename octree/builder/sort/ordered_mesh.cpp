@@ -11,13 +11,12 @@ namespace planetree::octree {
 namespace {
 
 Result<MeshSummary> read(const BuildInput& input, const BuildOptions& options, MeshScratch& scratch,
-                         TriangleSpool& spool, storage::SpillFile& kept,
-                         SpooledAttributes& attributes) {
+                         FrameSink& sink, storage::SpillFile& kept, SpooledAttributes& attributes) {
   const MeshOptions how{.float64 = options.float64,
                         .keep = options.keep & ~kKeepTriangles,
                         .value_property = options.value_property};
-  if (how.keep == 0) return read_mesh(input, spool, scratch, how);
-  AttributeSpool both(AttributeShape{how.keep}, spool, kept);
+  if (how.keep == 0) return read_mesh(input, sink, scratch, how);
+  AttributeSpool both(AttributeShape{how.keep}, sink, kept);
   Result<MeshSummary> summary = read_mesh(input, both, scratch, how);
   if (!summary) return summary;
   auto spooled = both.finish();
@@ -30,16 +29,13 @@ Result<MeshSummary> read(const BuildInput& input, const BuildOptions& options, M
 }  // namespace
 
 Result<OrderedMesh> read_unordered(const BuildInput& input, const BuildOptions& options,
-                                   MeshScratch& scratch, BuildProgress& progress,
-                                   TriangleSpool& spool, storage::SpillFile& kept) {
-  const auto report = [](void* context, std::uint64_t done, std::uint64_t total) {
-    return static_cast<BuildProgress*>(context)->progress(BuildPhase::kReading, done, total);
-  };
-  spool.report_progress(report, &progress);
+                                   MeshScratch& scratch, BuildProgress& progress, FrameSink& sink,
+                                   storage::SpillFile& kept) {
+  sink.report_to(progress);
   SpooledAttributes attributes;
-  const Result<MeshSummary> summary = read(input, options, scratch, spool, kept, attributes);
+  const Result<MeshSummary> summary = read(input, options, scratch, sink, kept, attributes);
   if (!summary) return summary.error();
-  auto frame = spool.finish();
+  auto frame = sink.finish();
   if (!frame) return frame.error();
   if (options.strict && frame->skipped_count > 0)
     return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,

@@ -9,8 +9,8 @@
 #include "octree/builder/job/model_frame.h"
 #include "octree/builder/mesh/stream/mesh_scratch.h"
 #include "octree/builder/sort/attribute_spool.h"
+#include "octree/builder/sort/frame_sink.h"
 #include "octree/builder/sort/triangle_runs.h"
-#include "octree/builder/sort/triangle_spool.h"
 #include "planetree/build.h"
 #include "planetree/error.h"
 
@@ -30,13 +30,13 @@ struct OrderedMesh {
 /// Reads a mesh without sorting it.
 ///
 /// scratch  as for read_mesh().
-/// spool    receives the triangles.
+/// sink     receives the triangles.
 /// kept     receives the attributes that options.keep names.
 /// return   everything but the runs.
-/// errors   those of read_mesh() and TriangleSpool; kBadInput for a bad record under
+/// errors   those of read_mesh() and the sink; kBadInput for a bad record under
 ///          options.strict.
 Result<OrderedMesh> read_unordered(const BuildInput& input, const BuildOptions& options,
-                                   MeshScratch& scratch, BuildProgress& progress,
-                                   TriangleSpool& spool, storage::SpillFile& kept);
+                                   MeshScratch& scratch, BuildProgress& progress, FrameSink& sink,
+                                   storage::SpillFile& kept);
 
 }  // namespace planetree::octree

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "octree/builder/job/model_frame.h"
-#include "octree/builder/mesh/mesh_reader.h"
-#include "octree/builder/sort/core_box.h"
+#include "octree/builder/sort/frame_finder.h"
+#include "octree/builder/sort/frame_sink.h"
 #include "octree/builder/sort/triangles.h"
 #include "storage/spill/spill_file.h"
 
@@ -17,27 +17,22 @@ namespace planetree::octree {
 /// limit, then on disk. The model frame is known after the last triangle.
 ///
 /// threads  one while it is filled; then any number may take batches, each once.
-class TriangleSpool final : public TriangleSink {
+class TriangleSpool final : public FrameSink {
  public:
-  using ProgressCall = Result<void> (*)(void* context, std::uint64_t done, std::uint64_t total);
-
   /// batch_triangles  1 to 2^31.
   /// held_bytes       maximum of batches in memory, besides the last two.
   /// file             receives the other batches; must outlive this.
   TriangleSpool(std::uint32_t batch_triangles, std::uint64_t held_bytes, storage::SpillFile& file)
       : batch_triangles_(batch_triangles), held_bytes_(held_bytes), file_(file) {}
 
-  void report_progress(ProgressCall call, void* context) {
-    progress_ = call;
-    progress_context_ = context;
-  }
-
   Result<void> triangle(std::uint64_t index, const std::array<Vec3, 3>& corners) override;
   void skipped(std::uint64_t first_index, std::uint64_t count, const SkippedRecord& why) override;
-  Result<void> progress(std::uint64_t bytes_done, std::uint64_t bytes_total) override;
 
-  /// Ends the spool. Call it once, after the last triangle.
-  Result<ModelFrame> finish();
+  /// Ends the spool. Call it, or the other, once, after the last triangle.
+  Result<ModelFrame> finish() override;
+  /// Ends the spool of a part of a mesh.
+  /// frame  that of the mesh.
+  Result<void> finish_part(const ModelFrame& frame);
 
   std::size_t batch_count() const { return batches_.size(); }
   /// The triangles of a batch in the order of the input, in the model frame, with their codes.
@@ -52,22 +47,17 @@ class TriangleSpool final : public TriangleSink {
     bool float64 = false;
   };
 
-  void note(const std::array<Vec3, 3>& corners);
   void widen_last();
   Result<void> spill_batch(Batch& batch);
-  Result<void> find_core();
-  void choose_scale();
+  Result<CoreFinder::Core> find_core() const;
   Result<Triangles> read_batch(const Batch& batch) const;
 
   const std::uint32_t batch_triangles_;
   std::uint64_t held_bytes_;
   storage::SpillFile& file_;
   std::vector<Batch> batches_;
-  ModelFrame frame_;
-  CornerSample sample_;
-  double min_magnitude_ = 0;  // minimum over all coordinates that are not 0
-  ProgressCall progress_ = nullptr;
-  void* progress_context_ = nullptr;
+  FrameFinder finder_;
+  ModelFrame frame_;  // after the end
 };
 
 }  // namespace planetree::octree

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 #include "octree/builder/sort/triangles.h"
@@ -57,6 +58,11 @@ class EdgeCensus {
   /// Adds a part of the model. Any number of threads; the result does not depend on the division
   /// into parts.
   Result<void> add(const Triangles& chunk);
+
+  /// Where the edges are in the file that were left over so far, if none is in memory.
+  std::vector<storage::SpillRuns::Extent> extents() const { return left_over_.extents(); }
+  /// Adds edges that another census left over, and that are in the file.
+  void add_extent(storage::SpillRuns::Extent edges) { left_over_.add_extent(std::move(edges)); }
 
   /// Returns the number of unbalanced edges, and the ends of those listed. Call it after the last
   /// part. Uses the calling thread's TBB arena.

@@ -17,6 +17,12 @@ namespace planetree::octree {
 /// Receives the triangles of a chunk, in any order, on any thread.
 using ChunkCall = std::function<Result<void>(const Triangles& triangles)>;
 
+/// Balances the edges of a census that has seen all chunks of a model, and finds the faces of the
+/// listed unbalanced edges. Arguments, errors and threads as those of match_edges().
+Result<EdgeBalance> list_unbalanced(EdgeCensus& census, const TriangleRuns& runs,
+                                    const std::vector<Chunk>& chunks, BuildProgress& progress,
+                                    CapChain* boundary);
+
 /// Matches the edges of a model, chunk by chunk, and finds the faces of the listed unbalanced
 /// edges.
 ///

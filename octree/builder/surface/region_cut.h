@@ -40,6 +40,9 @@ class RegionCut {
     found_.winding += exit_segment_.crossing(BoxedTriangle(cap));
   }
 
+  /// Adds what the triangles of a part count, where another object found that. One thread.
+  void add_winding(std::int64_t winding) { found_.winding += winding; }
+
   /// The result, after the last part.
   const SurfaceCut& found() const { return found_; }
 
