@@ -23,6 +23,7 @@ set(planetree_headers
   probe.h
   scene.h
   scene_shell.h
+  shard.h
   stats.h
   trace.h
   types.h)
@@ -32,7 +33,7 @@ set(planetree_library_layers
   error storage_system storage_file storage_spill cache_policy cache
   geometry page field attributes traversal nearest winding mask
   builder_job builder_mesh_stream builder_mesh_gltf builder_mesh_obj builder_mesh builder_sort builder_surface builder_tree
-  builder_mask builder_field builder_attributes builder
+  builder_mask builder_field builder_attributes builder shard
   query_file query_answer query_serve query query_shell query_scene c)
 
 function(planetree_add_library name)

@@ -12,7 +12,8 @@
 
 #include "octree/builder/mesh/stream/mesh_text.h"
 #include "storage/file/file_layout.h"
-#include "tools/build.h"
+#include "tools/build/build.h"
+#include "tools/build/shard.h"
 #include "tools/cli/file_text.h"
 #include "tools/compare.h"
 #include "tools/generate.h"
@@ -49,6 +50,7 @@ CommandLine::CommandLine(Console& console)
   app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::Throw);
   add_generate(app, console, action);
   add_build(app, console, action);
+  add_shard(app, console, action);
   add_query(app, console, action);
   add_compare(app, console, action);
   add_thickness(app, console, action);

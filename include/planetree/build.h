@@ -258,6 +258,8 @@ struct BuildReport {
   std::uint64_t file_bytes = 0;           ///< length of the file
   std::uint64_t temporary_bytes = 0;      ///< bytes that were spilled to temporary files
   std::uint64_t peak_resident_bytes = 0;  ///< peak resident memory since the process started
+  std::uint32_t page_bytes = 0;           ///< size of a decoded page
+  Metadata metadata;                      ///< what the file says of the model
   std::uint64_t content_id[2] = {};       ///< hash over the hashes of all pages, low word first
 
   /// Whether every edge of the input is balanced: as many triangles traverse it in one direction as

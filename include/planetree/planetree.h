@@ -21,6 +21,7 @@
 #include "planetree/probe.h"
 #include "planetree/scene.h"
 #include "planetree/scene_shell.h"
+#include "planetree/shard.h"
 #include "planetree/stats.h"
 #include "planetree/trace.h"
 #include "planetree/types.h"

@@ -160,6 +160,8 @@ planetree::BuildReport public_report(const BuildReport& built) {
                   (model.field_page_count > 0 ? kFieldLayer : 0) |
                   (model.attributes != 0 ? kAttributeLayer : 0);
   report.attributes = model.attributes;
+  report.page_bytes = header.page_bytes;
+  report.metadata = built.metadata;
   report.pages = header.page_count;
   report.file_bytes = header.file_bytes;
   report.temporary_bytes = built.temporary_bytes;

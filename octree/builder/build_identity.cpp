@@ -23,11 +23,6 @@ constexpr int kWorkVersion = 10;
 constexpr std::uint64_t kSampleBlocks = 64;
 constexpr std::uint64_t kBlockBytes = 4096;
 
-std::string version_text() {
-  return PLANETREE_VERSION " " + std::to_string(storage::kFormatVersion) + " " +
-         std::to_string(kWorkVersion);
-}
-
 Error input_error(const char* what) {
   return storage::file_error(errno, storage::FileAction::kRead, what);
 }
@@ -138,12 +133,17 @@ struct IdentityOf {
 
 }  // namespace
 
+std::string work_version() {
+  return PLANETREE_VERSION " " + std::to_string(storage::kFormatVersion) + " " +
+         std::to_string(kWorkVersion);
+}
+
 Result<BuildIdentity> BuildIdentity::of(const BuildInput& input, const BuildOptions& options,
                                         const BuildSeams& seams) {
   auto found = std::visit(IdentityOf{seams.calls}, input.content());
   if (!found) return found;
   BuildIdentity& identity = *found;
-  identity.version = version_text();
+  identity.version = work_version();
   identity.page_bytes = options.page_bytes;
   identity.with_sides = options.has_side_layer();
   identity.attributes = options.kept_attributes();

@@ -14,6 +14,9 @@
 
 namespace planetree::octree {
 
+/// Versions of planetree, of the format and of the records of unfinished work.
+std::string work_version();
+
 /// Everything that the work of a build depends on. A build can resume the work of an earlier one
 /// with an equal identity.
 struct BuildIdentity {

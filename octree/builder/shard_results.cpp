@@ -10,8 +10,7 @@ std::vector<storage::SpillRuns::Extent> moved(std::vector<storage::SpillRuns::Ex
   return extents;
 }
 
-void attach_runs(const std::vector<SortedPart>& parts, storage::SpillFile& file,
-                 TriangleRuns& runs) {
+void attach_runs(std::span<const SortedPart> parts, storage::SpillFile& file, TriangleRuns& runs) {
   for (const SortedPart& part : parts) runs.add_extent(moved(part.runs, file.attach(part.file)));
 }
 

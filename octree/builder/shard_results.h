@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "octree/builder/sort/ordered_mesh.h"
@@ -50,8 +51,7 @@ struct ShardResults {
 };
 
 /// Attaches the files of sorted parts to `file`, and their runs to `runs`, which reads from it.
-void attach_runs(const std::vector<SortedPart>& parts, storage::SpillFile& file,
-                 TriangleRuns& runs);
+void attach_runs(std::span<const SortedPart> parts, storage::SpillFile& file, TriangleRuns& runs);
 
 /// Attaches the file of a result to `file`. Returns the chunks with offsets there.
 std::vector<BuiltChunk> attach_chunks(const BuiltPart& part, storage::SpillFile& file);

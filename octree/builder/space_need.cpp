@@ -80,15 +80,6 @@ std::uint64_t vertex_bytes(const MeshSize& size) {
   return position_bytes(size) + attribute_bytes(size.attributes);
 }
 
-std::uint64_t raw_page_bytes(const MeshSize& size) {
-  const std::uint64_t vertex_bytes = position_bytes(size);
-  // A vertex is stored in every page that has one of its triangles.
-  const std::uint64_t vertices = std::min(size.vertices + size.triangles / 4, 3 * size.triangles);
-  const bool wide_ids = size.triangles > std::numeric_limits<std::uint32_t>::max();
-  return vertex_bytes * vertices + size.triangles * (kPageBytes + (wide_ids ? kWideIdBytes : 0)) +
-         kMinPageBytes;
-}
-
 Error too_little(const char* what, std::uint64_t needed, std::uint64_t free, const char* remedy) {
   return make_error(ErrorCode::kNoSpace, Error::kNowhere, Error::kNowhere,
                     "%s may take %llu MiB, and the device has %llu MiB free; %s", what,
@@ -100,6 +91,15 @@ constexpr const char* kTemporaryRemedy =
     "free some, name a --temp-dir with more space, or give more --memory";
 
 }  // namespace
+
+std::uint64_t SpaceNeed::raw_page_bytes(const MeshSize& size) {
+  const std::uint64_t vertex_bytes = position_bytes(size);
+  // A vertex is stored in every page that has one of its triangles.
+  const std::uint64_t vertices = std::min(size.vertices + size.triangles / 4, 3 * size.triangles);
+  const bool wide_ids = size.triangles > std::numeric_limits<std::uint32_t>::max();
+  return vertex_bytes * vertices + size.triangles * (kPageBytes + (wide_ids ? kWideIdBytes : 0)) +
+         kMinPageBytes;
+}
 
 SpaceNeed SpaceNeed::after_cutting(const MeshSize& part, const BuildMemory& memory,
                                    std::uint64_t kept_bytes) {

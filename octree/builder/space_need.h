@@ -43,6 +43,9 @@ struct SpaceNeed {
   static SpaceNeed after_cutting(const MeshSize& part, const BuildMemory& memory,
                                  std::uint64_t kept_bytes);
 
+  /// Estimate of the pages of a mesh as they are spilled.
+  static std::uint64_t raw_page_bytes(const MeshSize& size);
+
   /// Compares the estimate with the free space of both directories, or of the device they share.
   ///
   /// directory  set if there is too little space: the one to do something about.

@@ -252,7 +252,7 @@ Result<BuildReport> TreeBuild::write_pages() {
                                  files_.scratch(), progress_);
   if (!header) return header.error();
   if (const auto removed = files_.remove_work(); !removed) return removed.error();
-  return BuildReport{*header, model_.frame, files_.disk_bytes(), notes_};
+  return BuildReport{*header, model_.frame, files_.disk_bytes(), notes_, options_.metadata};
 }
 
 Result<BuildReport> TreeBuild::finish() {

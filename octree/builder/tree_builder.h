@@ -21,6 +21,7 @@ struct BuildReport {
   ModelFrame frame;                   ///< what reading the whole input found
   std::uint64_t temporary_bytes = 0;  ///< bytes that were spilled to disk
   std::vector<std::string> notes;     ///< as MeshSummary::notes
+  Metadata metadata;                  ///< as written
 };
 
 /// Reads a mesh and writes its tree to `output`, completely or not at all. The bytes

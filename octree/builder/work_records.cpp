@@ -11,16 +11,21 @@ bool SpillExtent::take(std::uint64_t offset, std::uint64_t count, std::uint64_t 
   return true;
 }
 
-bool SpillExtent::take(const TriangleRuns::Extent& run, bool float64) {
+bool SpillExtent::take(const TriangleRuns::Extent& run, std::size_t record_bytes) {
   return run.marks.size() == storage::SpillRuns::mark_count(run.size) &&
-         take(run.offset, run.size, Triangles::record_bytes(float64));
+         take(run.offset, run.size, record_bytes);
+}
+
+bool SpillExtent::take(const std::vector<storage::SpillRuns::Extent>& runs,
+                       std::size_t record_bytes) {
+  return std::ranges::all_of(runs, [&](const auto& run) { return take(run, record_bytes); });
 }
 
 bool SpillExtent::take(const std::vector<TriangleRuns::Extent>& runs, std::uint64_t triangles,
                        bool float64) {
   std::uint64_t left = triangles;
   for (const TriangleRuns::Extent& run : runs) {
-    if (run.size > left || !take(run, float64)) return false;
+    if (run.size > left || !take(run, Triangles::record_bytes(float64))) return false;
     left -= run.size;
   }
   return left == 0;
@@ -57,10 +62,12 @@ bool SpillExtent::take(const std::vector<SpilledPage>& pages, std::size_t head_b
   });
 }
 
+bool SpillExtent::take(const BuiltChunk& chunk) {
+  return take(chunk.pages, sizeof(PageHead)) && !chunk.pages.empty() && !chunk.boxes_below.empty();
+}
+
 bool SpillExtent::take(const ChunkWork& chunk, bool float64) {
-  const BuiltChunk& built = chunk.built;
-  return take(built.pages, sizeof(PageHead)) && !built.pages.empty() &&
-         !built.boxes_below.empty() && take(chunk.part.visitors, float64);
+  return take(chunk.built) && take(chunk.part.visitors, Triangles::record_bytes(float64));
 }
 
 bool SpillExtent::take(std::uint32_t number, const BuiltSector& sector) {

@@ -42,15 +42,17 @@ class SpillExtent {
   bool take(const SurfaceWork& surface, bool float64);
   bool take(const ChunkWork& chunk, bool float64);
   bool take(std::uint32_t number, const BuiltSector& sector);
+  bool take(const SpooledAttributes& attributes, std::uint64_t indices);
+  bool take(const std::vector<TriangleRuns::Extent>& runs, std::uint64_t triangles, bool float64);
+  bool take(const BuiltChunk& chunk);
+  bool take(const std::vector<storage::SpillRuns::Extent>& runs, std::size_t record_bytes);
   /// End of the parts that were taken, and the sum of their lengths.
   std::uint64_t end() const { return end_; }
   std::uint64_t bytes() const { return bytes_; }
 
  private:
   bool take(const std::vector<SpilledPage>& pages, std::size_t head_bytes);
-  bool take(const std::vector<TriangleRuns::Extent>& runs, std::uint64_t triangles, bool float64);
-  bool take(const TriangleRuns::Extent& run, bool float64);
-  bool take(const SpooledAttributes& attributes, std::uint64_t indices);
+  bool take(const TriangleRuns::Extent& run, std::size_t record_bytes);
   bool take(std::uint64_t offset, std::uint64_t count, std::uint64_t each_bytes);
 
   std::uint64_t file_bytes_;

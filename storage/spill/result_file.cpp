@@ -21,13 +21,13 @@ std::uint64_t block_count(std::uint64_t data_bytes) {
   return data_bytes / ResultFile::kBlockBytes + (data_bytes % ResultFile::kBlockBytes > 0);
 }
 
-Error damaged(std::uint64_t offset) {
-  return make_error(ErrorCode::kDamaged, offset, Error::kNowhere,
-                    "the bytes are not those that were written; remove the file and repeat the "
-                    "step that wrote it");
-}
-
 }  // namespace
+
+Error ResultFile::damaged(std::uint64_t offset) const {
+  return make_error(ErrorCode::kDamaged, Error::kNowhere, offset,
+                    "%s does not have the bytes that were written; remove it and repeat its step",
+                    name_.c_str());
+}
 
 struct ResultFile::Footer {
   std::array<char, 16> magic = kResultMagic;
@@ -37,7 +37,7 @@ struct ResultFile::Footer {
   std::uint64_t id_low = 0, id_high = 0;
 };
 
-Hash128 ResultFile::id_of(std::uint32_t kind, std::uint64_t data_bytes,
+Hash128 ResultFile::id_of(std::uint64_t kind, std::uint64_t data_bytes,
                           std::span<const std::uint64_t> hashes,
                           std::span<const std::byte> record) {
   Hasher hasher;
@@ -48,16 +48,18 @@ Hash128 ResultFile::id_of(std::uint32_t kind, std::uint64_t data_bytes,
   return hasher.value();
 }
 
-Result<ResultFile> ResultFile::open(const std::filesystem::path& path, std::uint32_t kind,
+Result<ResultFile> ResultFile::open(const std::filesystem::path& path, std::uint64_t kind,
                                     FileCalls& calls) {
   ResultFile result;
+  result.name_ = path.filename().string();
   result.file_ = FileHandle::open(calls, AT_FDCWD, path.c_str(), O_RDONLY | O_NONBLOCK);
   if (!result.file_.is_open()) return file_error(errno, FileAction::kRead, "open the file");
   const auto file_bytes = result.file_.size_bytes();
   if (!file_bytes) return file_bytes.error();
   const auto none = [] {
     return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
-                      "not a result of this step; remove the file and repeat the step");
+                      "not a result of this step and this release; remove the file and repeat the "
+                      "step");
   };
   Footer footer;
   if (*file_bytes < sizeof footer) return none();
@@ -69,7 +71,7 @@ Result<ResultFile> ResultFile::open(const std::filesystem::path& path, std::uint
   const std::uint64_t blocks = block_count(footer.data_bytes);
   if (footer.data_bytes > left || blocks > (left - footer.data_bytes) / sizeof(std::uint64_t) ||
       footer.record_bytes != left - footer.data_bytes - blocks * sizeof(std::uint64_t))
-    return damaged(left);
+    return result.damaged(left);
   result.data_bytes_ = footer.data_bytes;
   result.hashes_.resize(blocks);
   result.record_.resize(footer.record_bytes);
@@ -80,7 +82,8 @@ Result<ResultFile> ResultFile::open(const std::filesystem::path& path, std::uint
   left -= footer.record_bytes;
   if (const auto read = result.file_.read_at(left, result.record_); !read) return read.error();
   result.id_ = id_of(kind, footer.data_bytes, result.hashes_, result.record_);
-  if (result.id_ != Hash128{footer.id_low, footer.id_high}) return damaged(footer.data_bytes);
+  if (result.id_ != Hash128{footer.id_low, footer.id_high})
+    return result.damaged(footer.data_bytes);
   return result;
 }
 
@@ -129,8 +132,9 @@ Result<void> ResultFile::read(std::uint64_t offset, std::span<std::byte> out) co
   return {};
 }
 
-Result<NewResultFile> NewResultFile::create(const std::filesystem::path& path, FileCalls& calls) {
-  auto file = NewFile::create(path, true, calls);
+Result<NewResultFile> NewResultFile::create(const std::filesystem::path& path, bool replace,
+                                            FileCalls& calls) {
+  auto file = NewFile::create(path, replace, calls);
   if (!file) return file.error();
   return NewResultFile(*std::move(file));
 }
@@ -151,7 +155,7 @@ Result<std::vector<std::uint64_t>> NewResultFile::hash_data(std::uint64_t data_b
   return hashes;
 }
 
-Result<Hash128> NewResultFile::finish(std::uint32_t kind, std::uint64_t data_bytes,
+Result<Hash128> NewResultFile::finish(std::uint64_t kind, std::uint64_t data_bytes,
                                       std::span<const std::byte> record) {
   const auto hashes = hash_data(data_bytes);
   if (!hashes) return hashes.error();

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "planetree/error.h"
@@ -36,7 +37,7 @@ class ResultFile {
   /// calls   the system; must outlive the file.
   /// errors  those of file_error(), among them kNotFound; kBadInput: the file is none of this kind;
   ///         kTruncated; kDamaged: hashes differ.
-  static Result<ResultFile> open(const std::filesystem::path& path, std::uint32_t kind,
+  static Result<ResultFile> open(const std::filesystem::path& path, std::uint64_t kind,
                                  FileCalls& calls = FileCalls::real());
 
   /// Hash of the data, the record and the kind.
@@ -55,9 +56,12 @@ class ResultFile {
   Result<void> read_block(std::uint64_t block, std::span<std::byte> out) const;
   Result<void> check_block(std::uint64_t block, std::span<const std::byte> bytes) const;
   std::size_t bytes_of_block(std::uint64_t block) const;
-  static Hash128 id_of(std::uint32_t kind, std::uint64_t data_bytes,
+  static Hash128 id_of(std::uint64_t kind, std::uint64_t data_bytes,
                        std::span<const std::uint64_t> hashes, std::span<const std::byte> record);
 
+  Error damaged(std::uint64_t offset) const;
+
+  std::string name_;
   FileHandle file_;
   std::uint64_t data_bytes_ = 0;
   std::vector<std::uint64_t> hashes_;
@@ -65,14 +69,14 @@ class ResultFile {
   Hash128 id_{};
 };
 
-/// A result file that is being written. It appears under its name complete or not at all, and
-/// replaces an earlier one.
+/// A result file that is being written. It appears under its name complete or not at all.
 ///
 /// threads  one at a time; but any number may write to file() before finish().
 class NewResultFile {
  public:
-  /// errors  those of NewFile::create().
-  static Result<NewResultFile> create(const std::filesystem::path& path,
+  /// replace  whether an earlier file may be replaced.
+  /// errors   those of NewFile::create().
+  static Result<NewResultFile> create(const std::filesystem::path& path, bool replace,
                                       FileCalls& calls = FileCalls::real());
 
   /// Receives the data, from its start on.
@@ -82,7 +86,7 @@ class NewResultFile {
   /// data_bytes  length of the data.
   /// return      the id.
   /// errors      those of FileHandle and NewFile::commit().
-  Result<Hash128> finish(std::uint32_t kind, std::uint64_t data_bytes,
+  Result<Hash128> finish(std::uint64_t kind, std::uint64_t data_bytes,
                          std::span<const std::byte> record);
 
  private:

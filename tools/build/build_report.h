@@ -12,7 +12,6 @@ namespace planetree::tools {
 struct BuildRecord {
   const std::filesystem::path& input;
   const std::filesystem::path& output;
-  const BuildOptions& options;
   const BuildReport& built;
   double seconds = 0;                              ///< of the whole build, above 0
   const nlohmann::ordered_json& seconds_by_phase;  ///< in the order of phases

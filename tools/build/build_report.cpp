@@ -1,4 +1,4 @@
-#include "tools/report/build_report.h"
+#include "tools/build/build_report.h"
 
 #include <fmt/format.h>
 
@@ -34,14 +34,14 @@ std::string json_report(const BuildRecord& record, const std::string& sha256) {
       {"unbalanced_edges", built.unbalanced_edges},
       {"side_rule", built.side_rule == SideRule::kSurface ? "surface" : "solid"},
       {"openness", built.openness},
-      {"metadata", record.options.metadata},
+      {"metadata", built.metadata},
       {"layers", layer_words(built.layers)},
       {"attributes", attribute_words(built.attributes)},
       {"levels", built.levels},
       {"nodes", built.nodes},
       {"blocks", built.blocks},
       {"pages", built.pages},
-      {"page_bytes", record.options.page_bytes},
+      {"page_bytes", built.page_bytes},
       {"file_bytes", built.file_bytes},
       {"bytes_per_triangle", bytes_per_triangle(built)},
       {"seconds", record.seconds},
@@ -57,8 +57,9 @@ std::string json_report(const BuildRecord& record, const std::string& sha256) {
 
 std::string plain_report(const BuildRecord& record) {
   const BuildReport& built = record.built;
-  const std::string part =
-      record.options.box ? " of " + grouped_count(built.input_triangles) : std::string();
+  const std::string part = built.triangles < built.input_triangles
+                               ? " of " + grouped_count(built.input_triangles)
+                               : std::string();
   const std::string surface = built.watertight()
                                   ? "watertight"
                                   : grouped_count(built.unbalanced_edges) + " unbalanced edges";

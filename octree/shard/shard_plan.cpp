@@ -1,0 +1,115 @@
+#include "octree/shard/shard_plan.h"
+
+#include <fcntl.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <tuple>
+
+#include "octree/builder/mesh/side_files.h"
+#include "storage/system/file_error.h"
+#include "storage/system/file_handle.h"
+
+namespace planetree::octree {
+namespace {
+
+constexpr std::size_t kHashBytes = std::size_t{4} << 20;
+
+Result<void> hash_file(const std::filesystem::path& path, storage::FileCalls& calls,
+                       storage::Hasher& hasher) {
+  const auto file = storage::FileHandle::open(calls, AT_FDCWD, path.c_str(), O_RDONLY);
+  if (!file.is_open())
+    return storage::file_error(errno, storage::FileAction::kRead, "open the file");
+  const auto size = file.size_bytes();
+  if (!size) return size.error();
+  std::vector<std::byte> part(static_cast<std::size_t>(std::min<std::uint64_t>(kHashBytes, *size)));
+  for (std::uint64_t offset = 0; offset < *size; offset += part.size()) {
+    const auto bytes = std::span(part).first(
+        static_cast<std::size_t>(std::min<std::uint64_t>(part.size(), *size - offset)));
+    if (const auto read = file.read_at(offset, bytes); !read) return read;
+    hasher.add(bytes);
+  }
+  const std::uint64_t length = *size;
+  hasher.add(std::as_bytes(std::span(&length, 1)));
+  return {};
+}
+
+auto options_of(const ShardPlan& plan) {
+  const BuildIdentity& i = plan.identity;
+  return std::tie(plan.shards, i.version, i.page_bytes, i.with_sides, i.attributes,
+                  i.value_property, i.strict, i.float64, i.chunk_triangles, i.sector_triangles,
+                  plan.layers, plan.keep, plan.side, plan.metadata);
+}
+
+Error changed(const char* what) {
+  return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
+                    "%s since the job was planned; run 'planetree shard plan' again", what);
+}
+
+}  // namespace
+
+void ShardPlan::impose_on(BuildOptions& options) const {
+  options.page_bytes = identity.page_bytes;
+  options.float64 = identity.float64;
+  options.strict = identity.strict;
+  options.value_property = identity.value_property;
+  options.layers = layers;
+  options.keep = keep;
+  options.side = side;
+  options.box.reset();
+  options.resume = false;
+  options.metadata.clear();
+  for (std::size_t i = 0; i + 1 < metadata.size(); i += 2)
+    options.metadata[metadata[i]] = metadata[i + 1];
+}
+
+ShardPlan ShardPlan::of(const std::filesystem::path& input, std::uint32_t shards,
+                        const BuildIdentity& identity, const BuildOptions& options) {
+  ShardPlan plan;
+  plan.shards = shards;
+  plan.input = std::filesystem::absolute(input).lexically_normal().string();
+  plan.identity = identity;
+  plan.layers = options.layers;
+  plan.keep = options.keep;
+  plan.side = options.side;
+  for (const auto& [key, value] : options.metadata) {
+    plan.metadata.push_back(key);
+    plan.metadata.push_back(value);
+  }
+  return plan;
+}
+
+bool ShardPlan::is_like(const ShardPlan& other) const {
+  return input == other.input && identity == other.identity &&
+         options_of(*this) == options_of(other);
+}
+
+std::uint64_t first_of_part(std::uint64_t part, std::uint64_t count, std::uint64_t parts) {
+  // The first `count % parts` parts have one more than the others.
+  return count / parts * part + std::min(part, count % parts);
+}
+
+Result<storage::Hash128> content_of(const std::filesystem::path& input, storage::FileCalls& calls) {
+  storage::Hasher hasher;
+  if (const auto hashed = hash_file(input, calls, hasher); !hashed) return hashed.error();
+  const auto side_files = side_files_of(input, calls);
+  if (!side_files) return side_files.error();
+  // The reader of the mesh names the file that it cannot open.
+  for (const std::filesystem::path& path : *side_files) (void)hash_file(path, calls, hasher);
+  return hasher.value();
+}
+
+Result<void> check_input(const ShardPlan& plan, const BuildOptions& options,
+                         const BuildSeams& seams) {
+  const std::filesystem::path input = plan.input;
+  const auto now = BuildIdentity::of(input, options, seams);
+  if (!now) return now.error();
+  if (*now == plan.identity) return {};
+  if (now->version != plan.identity.version) return changed("this release differs from the one");
+  if (now->input_bytes != plan.identity.input_bytes) return changed("the input has changed");
+  const auto content = content_of(input, seams.calls);
+  if (!content) return content.error();
+  return *content == plan.content ? Result<void>() : changed("the input has changed");
+}
+
+}  // namespace planetree::octree

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "planetree/build.h"
+#include "tools/cli/progress.h"
+#include "tools/cli/subcommand.h"
+
+namespace planetree::tools {
+
+/// Shows the progress of a build, or of a part of one. Records the time of each phase and the file
+/// of a failure.
+class BuildMeter {
+ public:
+  /// name  what is built, for messages.
+  BuildMeter(const std::filesystem::path& name, bool quiet, bool json, Console& console)
+      : name_(name), quiet_(quiet), console_(console), progress_(quiet, json) {}
+
+  /// The options of the build, with this as observer. This must outlive them.
+  BuildOptions observed(BuildOptions options);
+  /// Ends the last phase.
+  void finish();
+
+  /// Seconds by phase, in the order of phases.
+  const nlohmann::ordered_json& seconds_by_phase() const { return seconds_; }
+  /// Seconds since this was made; above 0.
+  double seconds() const;
+  const std::filesystem::path& failed_at() const { return failed_at_; }
+
+ private:
+  void show(BuildPhase phase, std::uint64_t done, std::uint64_t total);
+  void note_seconds();
+
+  const std::filesystem::path& name_;
+  const bool quiet_;
+  Console& console_;
+  Progress progress_;
+  std::filesystem::path failed_at_;
+  std::optional<BuildPhase> phase_;
+  const std::chrono::steady_clock::time_point made_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point started_ = made_;
+  nlohmann::ordered_json seconds_ = nlohmann::ordered_json::object();
+  std::uint64_t done_ = 0;
+};
+
+/// Warns of what a build reports of its mesh: notes, skipped records, odd polygons.
+void warn_of_mesh(const std::filesystem::path& mesh, const BuildReport& report, Console& console);
+
+}  // namespace planetree::tools
