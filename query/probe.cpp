@@ -133,6 +133,22 @@ bool ProbeState::fetch_page(std::uint32_t page, const std::atomic<bool>& stop) n
   return running.fetched() > 0;
 }
 
+std::uint32_t ProbeState::first_missing_page(const Vec3& query,
+                                             const QueryOptions& options) noexcept {
+  assert(options.wait == Wait::kNever);
+  if (!is_valid(query, options)) return PageAccessor::kNoPage;
+  RunningQuery running(*this, PageAccess::Query::kPrefetch, options.wait);
+  ClosestPoint unused = unanswered(Status::kExact);
+  query::closest_point(running.context(), query, with_defaults(options), unused);
+  return running.first_missed();
+}
+
+bool ProbeState::load_page(std::uint32_t page) noexcept {
+  RunningQuery running(*this, PageAccess::Query::kPrefetch, Wait::kForPages);
+  const octree::PageReader& pages = running.pages();
+  return pages.page(pages.context, page) != nullptr;
+}
+
 Found ProbeState::find_triangles(const TriangleSetQuery& query, std::span<ClosestPoint> found,
                                  const QueryOptions& options) noexcept {
   if (!is_valid(query.centre, options) || !(query.radius >= 0)) return {};

@@ -100,6 +100,12 @@ class ProbeState {
                  const std::atomic<bool>& stop) noexcept;
   /// See FetchProbe::fetch_page.
   bool fetch_page(std::uint32_t page, const std::atomic<bool>& stop) noexcept;
+  /// Returns the first page that a closest-point query that does not wait lacks, or
+  /// PageAccessor::kNoPage. Leaves no request and counts no answer.
+  std::uint32_t first_missing_page(const Vec3& query, const QueryOptions& options) noexcept;
+  /// Makes a page resident, as a blocking query does. Returns false if that fails or takes too
+  /// long.
+  bool load_page(std::uint32_t page) noexcept;
   /// See FetchProbe::read_awaited_page.
   bool read_awaited_page() noexcept {
     if (trace_) {
@@ -184,6 +190,7 @@ class ProbeState::RunningQuery {
   std::uint64_t units() const noexcept { return work_.units; }
   std::uint32_t fetched() const noexcept { return accessor_.fetched(); }
   bool missed() const noexcept { return accessor_.missed(); }
+  std::uint32_t first_missed() const noexcept { return accessor_.first_missed(); }
   /// Notes an answer of which nothing is known but what it says.
   void note_degraded() noexcept {
     accessor_.pages().need_others();
