@@ -1,12 +1,9 @@
 #include "tools/check/file_parts.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <bit>
-#include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include "query/file/page_decoding.h"
 #include "query/file/tree_header.h"
@@ -18,7 +15,7 @@
 #include "storage/file/header_faults.h"
 #include "storage/file/metadata.h"
 #include "storage/file/page_codec.h"
-#include "storage/system/file_error.h"
+#include "storage/http/open_source.h"
 #include "tools/check/directory_survey.h"
 
 namespace planetree::tools {
@@ -51,21 +48,18 @@ bool can_serve(const storage::FileHeader& header, std::uint64_t actual_bytes) {
 
 }  // namespace
 
-Result<FileParts> FileParts::open(const std::filesystem::path& path, storage::FileCalls& calls) {
+Result<FileParts> FileParts::open(const std::filesystem::path& path, storage::FileCalls& calls,
+                                  const storage::HttpOptions& http) {
   FileParts parts;
   parts.path_ = path;
-  parts.file_ =
-      storage::FileHandle::open(calls, AT_FDCWD, path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY);
-  struct stat status {};
-  if (!parts.file_.is_open() || calls.fstat(parts.file_.descriptor(), &status) != 0)
-    return storage::file_error(errno, storage::FileAction::kRead, "open the file");
-  if (!S_ISREG(status.st_mode)) {
-    parts.issues_.push_back({IssueCode::kNotPlanetree, Error::kNowhere, Error::kNowhere,
-                             "this is not a file but a directory, device, pipe or socket; name a "
-                             "regular file"});
+  auto source = storage::open_source(path, http, calls);
+  if (!source && source.error().code == ErrorCode::kNotPlanetree) {
+    parts.issues_.push_back(Issue::from(IssueCode::kNotPlanetree, source.error()));
     return parts;
   }
-  parts.actual_bytes_ = static_cast<std::uint64_t>(status.st_size);
+  if (!source) return source.error();
+  parts.file_ = std::move(*source);
+  parts.actual_bytes_ = parts.file_->size_bytes();
   if (const auto loaded = parts.load(); !loaded) return loaded.error();
   return parts;
 }
@@ -133,7 +127,7 @@ Result<void> FileParts::load_directory() {
     return {};
   }
   // check_header() has checked the file's length. The directory of a truncated file may be whole.
-  DirectorySurvey survey(file_, header_);
+  DirectorySurvey survey(*file_, header_);
   if (const auto read = survey.run(); !read) return read;
   entries_ = std::move(survey.entries);
   issues_.insert(issues_.end(), survey.issues.begin(), survey.issues.end());
@@ -190,7 +184,7 @@ Result<void> FileParts::load_extension(const storage::ExtensionRecord& record) {
 }
 
 Result<void> FileParts::read_at(std::uint64_t offset, std::span<std::byte> out) const {
-  return out.empty() ? Result<void>{} : file_.read_at(offset, out);
+  return out.empty() ? Result<void>{} : file_->read_at(offset, out);
 }
 
 /// Checks a table entry before memory is allocated or bytes are read for it, because the table may

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -16,8 +17,9 @@
 #include "planetree/metadata.h"
 #include "query/file/page_decoding.h"
 #include "storage/file/file_layout.h"
+#include "storage/http/http_options.h"
+#include "storage/system/byte_source.h"
 #include "storage/system/file_calls.h"
-#include "storage/system/file_handle.h"
 #include "tools/check/aligned_bytes.h"
 #include "tools/check/frame_view.h"
 #include "tools/check/issue.h"
@@ -30,12 +32,14 @@ namespace planetree::tools {
 /// threads  one at a time, because the page read last is kept here
 class FileParts {
  public:
-  /// Opens a file and reads its headers, its directory and its extensions.
+  /// Opens a file or a URL, and reads its headers, its directory and its extensions.
   ///
+  /// http    for a URL
   /// errors  kNotFound, kPermission, kReadFailed, kNoMemory: the file cannot be opened or
   ///         read. Everything else becomes an issue.
   static Result<FileParts> open(const std::filesystem::path& path,
-                                storage::FileCalls& calls = storage::FileCalls::real());
+                                storage::FileCalls& calls = storage::FileCalls::real(),
+                                const storage::HttpOptions& http = {});
 
   /// Issues found at open, outside of pages.
   std::span<const Issue> issues() const { return issues_; }
@@ -123,7 +127,7 @@ class FileParts {
   const char* fault_of(const storage::PageEntry& entry) const;
 
   std::filesystem::path path_;
-  storage::FileHandle file_;
+  std::unique_ptr<storage::ByteSource> file_;
   std::uint64_t actual_bytes_ = 0;
   bool has_header_ = false;
   storage::FileHeader header_{};
