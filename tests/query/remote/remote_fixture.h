@@ -51,7 +51,7 @@ class RemoteModel : public testing::Test {
 
   /// Lets the server change the bytes of one in the middle of each reply behind the first.
   static void corrupt(const storage::RangeServer::Request& request,
-                    storage::RangeServer::Reply& reply) {
+                      storage::RangeServer::Reply& reply) {
     if (request.number > 0)
       for (std::size_t at = 0; at < reply.body.size(); at += 500) reply.body[at] ^= 1;
   }

@@ -81,6 +81,40 @@ TEST_F(RemoteModelOfParts, OpensByFewRequests) {
   EXPECT_LE(server_.bytes(), std::uint64_t{1} << 20);
 }
 
+TEST_F(RemoteModelOfParts, ANearQueryTakesFewRequests) {
+  const Model model = open();
+  Probe probe = make_probe(model);
+  const unsigned opened = server_.requests();
+  EXPECT_EQ(probe.closest_point(queries_[0]).status, Status::kExact);
+  EXPECT_LE(server_.requests(), opened + 2);
+}
+
+TEST_F(RemoteModelOfParts, ABatchSharesRequests) {
+  queries_ = random_queries(1000, -1, 1);
+  const Model model = open();
+  Probe probe = make_probe(model);
+  std::vector<ClosestPoint> answers(queries_.size());
+  probe.closest_points(queries_, answers);
+  EXPECT_LT(server_.requests(), model.stats().pages_read / 10);
+  const std::vector<ClosestPoint> expected = local_answers();
+  for (std::size_t i = 0; i < queries_.size(); ++i)
+    ASSERT_EQ(bits_of(answers[i]), bits_of(expected[i])) << i;
+  // The looks ahead are no answers, and leave no requests to fetch threads.
+  EXPECT_EQ(model.stats().degraded_answers, 0u);
+  EXPECT_EQ(model.stats().fetch_requests, 0u);
+}
+
+TEST_F(RemoteModelOfParts, ABatchEndsIfTheServerDoes) {
+  const Model model = open();
+  Probe probe = make_probe(model);
+  server_.set_rule([](const RangeServer::Request&, RangeServer::Reply& reply) { reply.fail(404); });
+  std::vector<ClosestPoint> answers(queries_.size());
+  probe.closest_points(queries_, answers);
+  for (std::size_t i = 0; i < queries_.size(); ++i)
+    EXPECT_TRUE(sample_.interval_holds(answers[i], queries_[i]));
+  EXPECT_TRUE(error_says(model, "status 404"));
+}
+
 TEST_F(RemoteModelOfParts, APageIsLateAndComesLater) {
   const Model model = open();
   Probe probe = make_probe(model);
