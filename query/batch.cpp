@@ -71,12 +71,14 @@ struct Window {
   }
   void run_remote(ProbeState& probe, std::size_t first, std::size_t end) const noexcept {
     BatchPrefetch ahead(probe, queries, order, options);
+    probe.set_looks_ahead(false);
     while (first < end) {
       const std::size_t stop = std::min(first + BatchPrefetch::kQueries, end);
       ahead.run(first, stop);
       run_all(probe, first, stop);
       first = stop;
     }
+    probe.set_looks_ahead(true);
   }
   void run_all(ProbeState& probe, std::size_t first, std::size_t end) const noexcept {
     constexpr std::size_t kAhead = 2;  // queries

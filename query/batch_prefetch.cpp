@@ -13,29 +13,53 @@ bool BatchPrefetch::helps(const ProbeState& probe, const QueryOptions& options) 
 }
 
 void BatchPrefetch::run(std::size_t first, std::size_t end) noexcept {
-  for (unsigned round = 0; round < kMaxRounds && !has_failed_; ++round)
+  for (unsigned round = 0; round < kMaxRounds && !is_late_; ++round)
     if (!run_round(first, end)) return;
+}
+
+// Returns how many pages the queries lack, each counted once, and which, as far as there is room.
+std::size_t BatchPrefetch::find_missing(std::size_t first, std::size_t end,
+                                        std::span<std::uint32_t> pages) noexcept {
+  std::size_t count = 0;
+  const auto add = [&](std::uint32_t page) {
+    const auto known = pages.first(count);
+    if (page == PageAccessor::kNoPage || count == pages.size() ||
+        std::find(known.begin(), known.end(), page) != known.end())
+      return;
+    pages[count++] = page;
+  };
+  // The side is searched in other pages than the distance, which need not be known for that.
+  QueryOptions of_side = options_;
+  of_side.parts = kSide;
+  const bool has_both = (options_.parts & kSide) != 0 && options_.parts != kSide;
+  for (std::size_t i = first; i < end && count < pages.size(); ++i) {
+    const Vec3& query = queries_[order_.query(i)];
+    add(probe_.first_missing_page(query, options_));
+    if (has_both) add(probe_.first_missing_page(query, of_side));
+  }
+  return count;
 }
 
 // Returns false if no query lacks a page that can be got.
 bool BatchPrefetch::run_round(std::size_t first, std::size_t end) noexcept {
-  const std::size_t max_pages = std::min<std::size_t>(
-      kMaxPages,
-      probe_.model().cache.holds_all_pages() ? kMaxPages : probe_.model().cache.frame_count() / 4);
+  const cache::PageCache& cache = probe_.model().cache;
+  const std::size_t max_pages = cache.holds_all_pages()
+                                    ? kMaxPages
+                                    : std::min<std::size_t>(kMaxPages, cache.frame_count() / 4);
   std::array<std::uint32_t, kMaxPages> missing;
-  std::size_t count = 0;
-  for (std::size_t i = first; i < end && count < max_pages; ++i) {
-    const std::uint32_t page = probe_.first_missing_page(queries_[order_.query(i)], options_);
-    const auto known = missing.begin() + static_cast<std::ptrdiff_t>(count);
-    if (page != PageAccessor::kNoPage && std::find(missing.begin(), known, page) == known)
-      missing[count++] = page;
-  }
+  const std::size_t count = find_missing(first, end, std::span(missing).first(max_pages));
   if (count == 0) return false;
   const std::span<std::uint32_t> pages(missing.data(), count);
   std::sort(pages.begin(), pages.end());
   probe_.model().remote_file->prefetch(pages);
-  for (const std::uint32_t page : pages) has_failed_ = has_failed_ || !probe_.load_page(page);
-  return !has_failed_;
+  bool has_read = false;
+  for (const std::uint32_t page : pages) {
+    const ProbeState::Loaded loaded = probe_.load_page(page);
+    has_read = has_read || loaded == ProbeState::Loaded::kResident;
+    is_late_ = loaded == ProbeState::Loaded::kLate;
+    if (is_late_) return false;
+  }
+  return has_read;
 }
 
 }  // namespace planetree::query

@@ -12,6 +12,7 @@
 #include "query/answer/contact_set.h"
 #include "query/answer/query_context.h"
 #include "query/answer/side.h"
+#include "query/batch_prefetch.h"
 #include "query/model_state.h"
 #include "query/probe_state.h"
 
@@ -51,7 +52,24 @@ ClosestPoint ProbeState::find_closest_point(const Vec3& query,
   return answer;
 }
 
+// Returns false if a page did not come in time. Not inlined, because files of this machine need
+// nothing of it.
+[[gnu::noinline]] bool ProbeState::look_ahead(const Vec3& query,
+                                              const QueryOptions& options) noexcept {
+  const BatchOrder order;
+  BatchPrefetch prefetch(*this, {&query, 1}, order, options);
+  prefetch.run(0, 1);
+  return !prefetch.is_late();
+}
+
 ClosestPoint ProbeState::closest_point(const Vec3& query, const QueryOptions& options) noexcept {
+  if (model_.remote_file && looks_ahead_ && options.wait == Wait::kForPages &&
+      !look_ahead(query, options)) {
+    // After one wait in vain, the query waits for no other page.
+    QueryOptions at_once = options;
+    at_once.wait = Wait::kNever;
+    return find_closest_point<PageAccess::Query::kClosestPoint>(query, at_once);
+  }
   return find_closest_point<PageAccess::Query::kClosestPoint>(query, options);
 }
 
@@ -143,10 +161,11 @@ std::uint32_t ProbeState::first_missing_page(const Vec3& query,
   return running.first_missed();
 }
 
-bool ProbeState::load_page(std::uint32_t page) noexcept {
+ProbeState::Loaded ProbeState::load_page(std::uint32_t page) noexcept {
   RunningQuery running(*this, PageAccess::Query::kPrefetch, Wait::kForPages);
   const octree::PageReader& pages = running.pages();
-  return pages.page(pages.context, page) != nullptr;
+  if (pages.page(pages.context, page)) return Loaded::kResident;
+  return running.missed() ? Loaded::kLate : Loaded::kUnreadable;
 }
 
 Found ProbeState::find_triangles(const TriangleSetQuery& query, std::span<ClosestPoint> found,

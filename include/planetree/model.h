@@ -135,7 +135,7 @@ class PLANETREE_API Model {
   /// serve
   ///          ranges of bytes. Its model answers as one of the file does, bit for bit. Of a large
   ///          one, neither the field nor the side grid is read at open. The budget then includes
-  ///          6.5 MiB for clusters and connections.
+  ///          16.5 MiB for clusters and connections.
   /// errors   kUnsupported: compiler options or the processor change floating-point results.
   ///          kBadArgument: an option is out of range. Both are found before the file is opened.
   ///          kNotFound, kPermission, kReadFailed: the file or the URL cannot be read.

@@ -188,10 +188,11 @@ Result<bool> PageFile::try_read_page(std::uint32_t page, std::span<std::byte> st
     return checked.error();
   const std::span<std::byte> stored = stored_scratch.first(entry->stored_bytes);
   if (!source_->try_read(entry->offset, stored, terms)) return false;
-  if (const Result<void> unpacked = unpack(page, *entry, stored, raw_out); !unpacked) {
-    return unpacked.error();
-  }
-  return true;
+  const Result<void> unpacked = unpack(page, *entry, stored, raw_out);
+  if (unpacked) return true;
+  // Where the source may have other bytes, read_page() asks for them.
+  if (source_->forget({entry->offset, entry->stored_bytes})) return false;
+  return unpacked.error();
 }
 
 }  // namespace planetree::storage

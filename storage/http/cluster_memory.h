@@ -20,7 +20,9 @@ inline constexpr std::uint64_t kClusterBytes = std::uint64_t{256} << 10;
 /// threads  any number at once
 class ClusterMemory {
  public:
-  static constexpr std::size_t kSlots = 24;
+  /// A batch of points reads at several places of the file in turns: one for each level of the
+  /// trees, and for each thread. With 24 slots they displaced each other.
+  static constexpr std::size_t kSlots = 64;
   static constexpr std::uint64_t kBytes = kSlots * kClusterBytes;
   /// Maximum number of bytes of one copy.
   static constexpr std::uint64_t kMaxCopyBytes = 4 * kClusterBytes;
