@@ -62,4 +62,14 @@ bool BatchPrefetch::run_round(std::size_t first, std::size_t end) noexcept {
   return has_read;
 }
 
+// Returns false if a page did not come in time. Not inlined, because files of this machine need
+// nothing of it.
+[[gnu::noinline]] bool ProbeState::look_ahead(const Vec3& query,
+                                              const QueryOptions& options) noexcept {
+  const BatchOrder order;
+  BatchPrefetch prefetch(*this, {&query, 1}, order, options);
+  prefetch.run(0, 1);
+  return !prefetch.is_late();
+}
+
 }  // namespace planetree::query

@@ -12,7 +12,6 @@
 #include "query/answer/contact_set.h"
 #include "query/answer/query_context.h"
 #include "query/answer/side.h"
-#include "query/batch_prefetch.h"
 #include "query/model_state.h"
 #include "query/probe_state.h"
 
@@ -50,16 +49,6 @@ ClosestPoint ProbeState::find_closest_point(const Vec3& query,
   if (answer.status == Status::kDegraded)
     note_degraded(answer.upper - answer.lower, running.missed());
   return answer;
-}
-
-// Returns false if a page did not come in time. Not inlined, because files of this machine need
-// nothing of it.
-[[gnu::noinline]] bool ProbeState::look_ahead(const Vec3& query,
-                                              const QueryOptions& options) noexcept {
-  const BatchOrder order;
-  BatchPrefetch prefetch(*this, {&query, 1}, order, options);
-  prefetch.run(0, 1);
-  return !prefetch.is_late();
 }
 
 ClosestPoint ProbeState::closest_point(const Vec3& query, const QueryOptions& options) noexcept {
