@@ -11,6 +11,7 @@
 
 #include "octree/attributes/attribute_page.h"
 #include "octree/field/field_page.h"
+#include "octree/page/frame.h"
 #include "octree/page/mask_streams.h"
 #include "octree/page/page_streams.h"
 #include "planetree/error.h"
@@ -20,11 +21,31 @@
 #include "storage/http/http_options.h"
 #include "storage/system/byte_source.h"
 #include "storage/system/file_calls.h"
-#include "tools/check/aligned_bytes.h"
 #include "tools/check/frame_view.h"
 #include "tools/check/issue.h"
 
 namespace planetree::tools {
+
+/// Bytes aligned to a slot, as frames must be.
+class AlignedBytes {
+ public:
+  /// Allocates `bytes`, a multiple of the slot. The old content is lost.
+  void resize(std::size_t bytes) {
+    if (bytes == bytes_) return;
+    slots_ = std::make_unique<Slot[]>(bytes / sizeof(Slot));
+    bytes_ = bytes;
+  }
+  std::byte* data() { return reinterpret_cast<std::byte*>(slots_.get()); }
+  const std::byte* data() const { return reinterpret_cast<const std::byte*>(slots_.get()); }
+  std::span<std::byte> span() { return {data(), bytes_}; }
+
+ private:
+  struct alignas(octree::kSlotBytes) Slot {
+    std::byte bytes[octree::kSlotBytes];
+  };
+  std::unique_ptr<Slot[]> slots_;
+  std::size_t bytes_ = 0;
+};
 
 /// A .ptree file that may be damaged in any part. Model::open refuses such a file; this reads what
 /// is still readable.
@@ -122,6 +143,7 @@ class FileParts {
   Result<void> load_extensions();
   Result<void> load_extension(const storage::ExtensionRecord& record);
   Result<void> load_directory();
+  void check_header();
   void check_lengths();
   Result<void> read_at(std::uint64_t offset, std::span<std::byte> out) const;
   const char* fault_of(const storage::PageEntry& entry) const;
