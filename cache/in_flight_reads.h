@@ -19,6 +19,7 @@ struct InFlightRead {
     kServed,  ///< has waited: `page` is in `frame`, which is held for this fetcher
     kFailed,  ///< has waited: `page` is unreadable
     kRetry,   ///< has waited: the other fetcher gave up, so this one must read `page` itself
+    kLate,    ///< has waited: `page` cannot be read now
   };
 
   Stage stage;
@@ -71,6 +72,12 @@ class InFlightReads {
   template <class Wake>
   void fail(std::uint32_t page, const Wake& wake) noexcept {
     end_waits(page, InFlightRead::Stage::kFailed, kNoFrame, wake);
+  }
+  /// Notes that the page cannot be read now. Calls wake(fetcher) for each fetcher that waited for
+  /// it.
+  template <class Wake>
+  void give_up(std::uint32_t page, const Wake& wake) noexcept {
+    end_waits(page, InFlightRead::Stage::kLate, kNoFrame, wake);
   }
   /// Notes that the fetcher that read the page gave up because the read would block. Calls
   /// wake(fetcher) for the waiting fetchers that read pages themselves. The others go on waiting,

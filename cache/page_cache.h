@@ -36,6 +36,7 @@ enum class FillResult : std::uint8_t {
   kFilled,       ///< the frame holds a page of the lower tier
   kFilledUpper,  ///< the frame holds a page of the upper tier: it links to other pages
   kWouldBlock,   ///< the read would block; only if the request forbids to wait
+  kLate,         ///< the page cannot be read now; a later fetch may read it
 };
 
 /// Fills a frame with the decoded page. Any number of threads call it at once, without the

@@ -130,6 +130,15 @@ PageCache::Outcome PageCache::read_page(Lock& lock, std::uint32_t fetcher, std::
     in_flight_reads_.abandon(page, wake_waiting);
     return Outcome::kWouldBlock;
   }
+  if (*filled == FillResult::kLate) {
+    tables_.free_frames[free_count_++] = frame;
+    in_flight_reads_.give_up(page, wake_waiting);
+    add_one(counts_.given_up);
+    if (why != nullptr)
+      *why = make_error(ErrorCode::kReadFailed, page, Error::kNowhere,
+                        "page %u cannot be read now: try again later", page);
+    return Outcome::kGivenUp;
+  }
   tables_.pages[frame] = page;
   const PageTier tier = *filled == FillResult::kFilledUpper ? PageTier::kUpper : PageTier::kLower;
   evictor_.install(frame, page, tier);

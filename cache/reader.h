@@ -27,7 +27,8 @@ struct FetchTerms {
 /// Result of a fetch.
 struct FetchResult {
   const std::byte* frame = nullptr;  ///< nullptr if the page is unreadable or `given_up` is true
-  bool given_up = false;             ///< the wait limit has passed; a later fetch may succeed
+  bool given_up =
+      false;  ///< the wait limit has passed, or the page is late; a later fetch may succeed
 };
 
 /// One thread's access to the pages of a PageCache, which must outlive it. Move-only. The

@@ -30,7 +30,7 @@ set(planetree_headers
 list(TRANSFORM planetree_headers PREPEND ${PROJECT_SOURCE_DIR}/include/planetree/)
 
 set(planetree_library_layers
-  error storage_system storage_file storage_spill cache_policy cache
+  error storage_system storage_file storage_http storage_spill cache_policy cache
   geometry page field attributes traversal nearest winding mask
   builder_job builder_mesh_stream builder_mesh_gltf builder_mesh_obj builder_mesh builder_sort builder_surface builder_tree
   builder_mask builder_field builder_attributes builder shard
@@ -49,7 +49,8 @@ function(planetree_add_library name)
     BASE_DIRS ${PROJECT_SOURCE_DIR}/include FILES ${planetree_headers})
   target_link_libraries(${name} PRIVATE
     PkgConfig::liblz4 PkgConfig::liburing PkgConfig::libxxhash PkgConfig::libzstd PkgConfig::zlib
-    hwy::hwy_contrib hwy::hwy TBB::tbb Threads::Threads)
+    $<$<BOOL:${PLANETREE_HTTP}>:PkgConfig::libcurl> hwy::hwy_contrib hwy::hwy TBB::tbb
+    Threads::Threads)
   target_compile_features(${name} PUBLIC cxx_std_20)
   # Before 1.0 a minor version may change the interface.
   set_target_properties(${name} PROPERTIES

@@ -2,7 +2,6 @@
 """A reader of .ptree files, version 1.0, written from v1/spec.md.
 
     reader.py FILE                       what the file holds
-    reader.py FILE --verify [--full]     issues, with the codes of ISSUES.md
     reader.py FILE --answers POINTS      nearest triangles, sides, and triangles by index
 
 All output is JSON. POINTS is a JSON file with some of these keys, in the input's coordinates:
@@ -13,8 +12,7 @@ It is the specification as a program: plain and slow. Distances and signs are fo
 numbers, so nothing is rounded before it is compared. What a reader may ignore for an answer (1.3)
 it ignores: the mask, moments and the field.
 
-`--verify` checks what ISSUES.md states, but it never reports MOMENTS, OPENNESS, REGION, FIELD,
-ATTRIBUTES, BLOCK_HEIGHT_FIELD and the codes that begin with MASK_.
+It checks what it reads, as far as an answer depends on it. checker.py checks a whole file.
 
 Exit status: 0 done, 1 the file is at fault, 2 the command line is. Needs numpy, xxhash and lz4.
 """
@@ -30,10 +28,10 @@ import os
 import re
 import struct
 import sys
-from collections import Counter, defaultdict, namedtuple
+from collections import defaultdict, namedtuple
 from fractions import Fraction
-from functools import cached_property, partial
-from typing import Any, Iterable, Iterator
+from functools import cached_property
+from typing import Any, Iterable
 
 import lz4.block
 import numpy as np
@@ -147,7 +145,11 @@ def out_of_range(h: Header) -> list[str]:
     box = scaled(h.box_lower + h.box_upper, h.scale_exponent)
     core = scaled(h.core_lower + h.core_upper, h.scale_exponent)
     points, per_page = math.prod(h.field_size), h.attributes_per_page
+    edge = 2 * max(y / 2 - x / 2 for x, y in zip(h.core_lower, h.core_upper))
     a, b = min(h.input_triangles, 2**62), min(h.cap_count, 2**62)
+
+    def is_zero(*values: float) -> bool:
+        return not any(struct.pack(f"<{len(values)}d", *values))                    # 2.4: no -0
 
     def ascend(*corners: Vec) -> bool:
         return all(x[i] <= y[i] for x, y in itertools.pairwise(corners) for i in AXES)
@@ -156,33 +158,36 @@ def out_of_range(h: Header) -> list[str]:
         "header_bytes or page_bytes": h.header_bytes == HEADER_BYTES
         and h.page_bytes in (2**i for i in range(12, 19)),
         "page_count or extension_count": h.layers[1] >= 1 and h.extension_count <= 64,
-        "max_raw_bytes or max_stored_bytes": h.max_stored_bytes <= h.max_raw_bytes <= 2**20,
+        "max_raw_bytes or max_stored_bytes": 1 <= h.max_stored_bytes <= h.max_raw_bytes <= 2**20,
         "a coordinate": all(map(math.isfinite, sum(vectors, h.field_lower))),
         "triangle_count or block_count": h.triangle_count >= 1 and h.block_count >= 1,
-        "sample_triangle or first_skipped": h.sample_triangle < h.indices
-        and (h.first_skipped == 2**64 - 1) == (h.skipped_count == 0),
+        "sample_triangle or first_skipped": h.sample_triangle < h.indices < 2**64
+        and (h.first_skipped < h.indices if h.skipped_count else h.first_skipped == 2**64 - 1),
         "node_count": (h.node_count == 0) == (h.triangle_count <= 16),
-        "box": ascend(h.box_lower, h.box_upper) and all(abs(x) < 2.0**112 for x in box),
-        "scale_exponent": -1200 <= h.scale_exponent <= 1200,
+        "box": ascend(h.box_lower, h.box_upper) and all(abs(x) <= 2.0**112 for x in box),
+        "scale_exponent": -1200 <= h.scale_exponent <= 1200 and (
+            not edge >= 2.0**-1000 or 1 <= np.ldexp(edge, h.scale_exponent) < 2),       # 1.7
         "vertex_kind or triangle_id_bytes": h.vertex_kind <= 1 and h.triangle_id_bytes in (4, 8),
         "height or mask_levels": h.height <= 96 and h.mask_levels <= (19 if mask else 0),
+        "mask_cell_count": (h.mask_cell_count > 0) == mask,
         "unbalanced_edge": not any(h.unbalanced_edge[64 * len(h.edges):]) and all(
             e.along != e.against and e.triangle < h.indices
             and all(map(math.isfinite, e.start + e.end)) for e in h.edges),
         "input_triangles": not region or h.input_triangles >= h.triangle_count,
         "region": (ascend(h.region_lower, h.region_upper) and ascend(h.region_lower, h.box_upper)
-                   and ascend(h.box_lower, h.region_upper) if region else not any(sum(walls, ()))),
+                   and ascend(h.box_lower, h.region_upper) if region else is_zero(*sum(walls, ()))),
         "region_winding": abs(h.region_winding) <= (
             a // 2 + b // 2 + 1 if region and not h.without_sides else 0),
         "core": (ascend(h.box_lower, h.core_lower, h.core_upper, h.box_upper) and all(
-            abs(x) < 2.0**55 for x in core) and (h.stray_count > 0 or box == core)),
+            abs(x) < 2.0**55 for x in core) and (h.stray_count > 0 or (
+                h.box_lower, h.box_upper) == (h.core_lower, h.core_upper))),
         "stray_count": h.stray_count == 0 or h.stray_count < h.usable,
-        "stray_edge": 0 <= h.stray_edge <= (2.0**60 if h.stray_count else 0),
+        "stray_edge": 0 <= h.stray_edge <= 2.0**60 and (h.stray_count or is_zero(h.stray_edge)),
         "cap_count": caps == (h.unbalanced_edge_count > 0 and not h.without_sides)
         and (h.triangle_id_bytes == 8 or h.cap_count <= 2**32),
         "cap_node_count, cap_block_count or cap_page_count": caps == (h.cap_block_count > 0)
         and caps == (h.cap_page_count > 0) and (h.cap_node_count == 0) == (h.cap_count <= 16),
-        "cap_area or cap_height": 0 <= h.cap_area <= (2.0**1000 if caps else 0)
+        "cap_area or cap_height": 0 <= h.cap_area <= 2.0**1000 and (caps or is_zero(h.cap_area))
         and h.cap_height <= (96 if caps else 0),
         "openness": 0 <= h.openness <= 1,
         "side_rule": h.side_rule <= 1 and h.side_is_chosen <= 1 and (
@@ -191,7 +196,8 @@ def out_of_range(h: Header) -> list[str]:
         "field": (all(2.0**-40 <= x <= 4 for x in (h.field_step, h.field_quantum))
                   and min(h.field_size) >= 2 and points <= 2**20
                   and h.field_page_count == -(-points * 8 // max(h.page_bytes, 1)) if field
-                  else not any((*h.field_lower, *h.field_size, h.field_step, h.field_quantum))),
+                  else is_zero(*h.field_lower, h.field_step, h.field_quantum)
+                  and not any(h.field_size)),
         "attributes": h.attributes < 16 and h.attributes & 1 == (h.attributes > 0)
         and h.attribute_page_count == (-(-h.indices // per_page) if per_page > 0 else 0)
         and h.value_kind <= (2 if h.attributes & 8 else 0),
@@ -207,7 +213,8 @@ EXTENSION = "name 24s  offset Q  bytes Q  check Q  required B  reserved 15s"
 
 
 class File:
-    """An open file. With a list of issues, opening goes on after an issue as long as it can."""
+    """An open file. With a list of issues, as checker.py gives it, opening goes on after an issue
+    as long as it can."""
 
     def __init__(self, path: str, issues: list[Issue] | None = None):
         require(os.path.isfile(path) or not os.path.exists(path), "no file", "NOT_PLANETREE")
@@ -222,12 +229,22 @@ class File:
         _, self.c, self.e, self.a, self.d, self.n = h.layers
         self.box = scaled(h.box_lower, h.scale_exponent), scaled(h.box_upper, h.scale_exponent)
         self.least = scaled(h.core_lower, h.scale_exponent)         # corner of the octree
-        sides = (h.region_lower, -math.inf), (h.region_upper, math.inf)             # 3
-        self.walls = [tuple(w if h.input_triangles and a < x < b else far for w, x, a, b in zip(
-            scaled(side, h.scale_exponent), side, h.box_lower, h.box_upper)) for side, far in sides]
+        lower, upper = (scaled(x, h.scale_exponent) for x in (h.region_lower, h.region_upper))
+        self.walls = (                                              # 3
+            tuple(x if h.input_triangles and x > y else -math.inf for x, y in zip(
+                lower, self.box[0])),
+            tuple(x if h.input_triangles and x < y else math.inf for x, y in zip(
+                upper, self.box[1])))
         self.has_walls = any(map(math.isfinite, sum(self.walls, ())))
-        self.open_directory()
+        self.sizes = [self.n]                                       # entries of each level, 2.6
+        while self.sizes[0] > 512:
+            self.sizes.insert(0, -(-self.sizes[0] // 512))
+        self.start = HEADER_BYTES + 64 * h.extension_count + 24 * sum(self.sizes)   # of page 0
+        self.end = self.start + sum(h.stored_bytes)                 # of the last page
+        require(self.end + HEADER_BYTES <= h.file_bytes, "the pages do not lie within the file",
+                "HEADER_FIELD")
         self.open_extensions()
+        self.open_directory()
 
     def expect(self, condition: Any, code: str, message: str, page: int | None = None) -> None:
         if not condition and self.issues is None:
@@ -243,78 +260,96 @@ class File:
     def choose_header(self) -> Header:
         """2.3, step 1."""
         first = self.read(0, HEADER_BYTES)
-        last = self.read(max(0, self.length - HEADER_BYTES), HEADER_BYTES)
+        last = self.read(max(HEADER_BYTES, self.length - HEADER_BYTES), HEADER_BYTES)
         headers = [Header(x) for x in (first, last) if len(x) == HEADER_BYTES]
         chosen = next((h for h in headers if h.is_whole), None)
         version = int.from_bytes(first[8:10], "little")
         if chosen is None:
-            require(first[:8] == MAGIC[:max(1, len(first))], "no magic", "NOT_PLANETREE")
-            require(len(first) < 10 or version >> 8 == 1,
+            begins = first[:8] == MAGIC[:max(1, len(first))]
+            require(begins or b"PTREE" in first[:10], "no magic", "NOT_PLANETREE")
+            require(not begins or len(first) == HEADER_BYTES, "shorter than a header",
+                    "FILE_LENGTH")
+            require(not begins or version >> 8 == 1,
                     f"version {version} instead of 256 to 511", "FORMAT_UNSUPPORTED")
-            require(headers, "the file is shorter than a header", "FILE_LENGTH")
             raise Issue("HEADER_LOST", "neither of the two headers is whole")
         self.expect(first == last or self.issues is None, "HEADER_COPY", "the two headers differ")
         return chosen
 
     def open_directory(self) -> None:
         """2.6, and the fields of the header that are sums and maxima of entries."""
-        h, sizes = self.header, [self.n]
-        while sizes[0] > 512:
-            sizes.insert(0, -(-sizes[0] // 512))
-        start = HEADER_BYTES + 64 * h.extension_count
-        self.start = start + 24 * sum(sizes)                        # of page 0
-        self.end = self.start + sum(h.stored_bytes)                 # of the last page
-        require(self.end + HEADER_BYTES <= h.file_bytes, "the pages do not lie within the file",
-                "HEADER_FIELD")
+        h, start, levels = self.header, self.start - 24 * sum(self.sizes), []
         require(self.start <= self.length, "the directory is cut short", "FILE_LENGTH")
-        ups = [(int.from_bytes(h.content_id, "little"), None, 0)]   # what is stated of the blocks
-        for level, size in enumerate(sizes):
-            data, form = self.read(start, 24 * size), "<QQII" if size == self.n else "<QQQ"
-            entries, start = list(struct.iter_unpack(form, data)), start + 24 * size
-            for i, up in enumerate(ups):
-                block, first = data[512 * 24 * i:512 * 24 * (i + 1)], entries[512 * i]
-                good = up[0] == (xxh3_64_intdigest(block) if level else xxh3_128_intdigest(block))
-                self.expect(good, "DIRECTORY", f"block {i} of level {level} has another hash")
-                self.expect(not good or level == 0 or up[1] == first[1] and (
-                    size == self.n or up[2] == first[2]), "DIRECTORY",
-                    f"block {i} of level {level} is not as stated above it")
-            starts, ups = [up[2] for up in ups], entries
+        for size in self.sizes:
+            data = self.read(start, 24 * size)
+            form = "<QQII" if size == self.n else "<QQQ"
+            parts = [data[i:i + 24 * 512] for i in range(0, len(data), 24 * 512)]
+            levels.append([(part, list(struct.iter_unpack(form, part))) for part in parts])
+            start += 24 * size
         self.entries: list[Entry] = []
-        for k, entry in enumerate(entries):
-            if k % 512 == 0:
-                at, start = start, self.start + starts[k // 512]
-                self.expect(at == start, "DIRECTORY", f"page {k} starts at another place")
-            self.entries.append(Entry(*entry, start))
-            start += entry[2]
-        for k, (x, y) in enumerate(itertools.pairwise(self.entries), 1):
-            self.expect(k in h.layers or x.octcode + (k > self.d) <= y.octcode, "DIRECTORY",
-                        f"the octcode of page {k} does not ascend")
+        self.walk_directory(levels, 0, 0, None, 0, self.end - self.start, True)
         raw, stored = [x.raw_bytes for x in self.entries], [x.stored_bytes for x in self.entries]
         sums = [sum(stored[x:y]) for x, y in itertools.pairwise(h.layers)]
-        self.expect(list(h.stored_bytes) == sums, "DIRECTORY", "other sums of stored_bytes")
-        most = max(raw), max(stored)
-        self.expect(self.issues or (h.max_raw_bytes, h.max_stored_bytes) == most, "HEADER_FIELD",
-                    "another max_raw_bytes or max_stored_bytes")
+        good = all(k in h.layers or x.octcode + (k > self.d) <= y.octcode                # 4.3
+                   for k, (x, y) in enumerate(itertools.pairwise(self.entries), 1))
+        self.expect(self.issues or good, "DIRECTORY", "the octcodes do not ascend")
+        self.expect(self.issues or (h.max_raw_bytes, h.max_stored_bytes, list(h.stored_bytes)) == (
+            max(raw), max(stored), sums), "HEADER_FIELD", "other lengths than in the directory")
+
+    def walk_directory(self, levels: list, level: int, number: int, up: Any, start: int, end: int,
+                       is_known: bool) -> None:
+        """A block and what is below it. `up` is its entry in the block above, and `is_known` tells
+        whether all blocks above are right; where one is not, this goes on without a check."""
+        h, (data, entries) = self.header, levels[level][number]
+        last, at = level == len(levels) - 1, start
+        is_right = is_known and (
+            up[0] == xxh3_64_intdigest(data) and up[1] == entries[0][1] if up else
+            int.from_bytes(h.content_id, "little") == xxh3_128_intdigest(data))
+        if last:
+            if not is_known and self.entries:
+                at = self.entries[-1].offset + self.entries[-1].stored_bytes - self.start
+            for k, entry in enumerate(entries, 512 * number):
+                _, octcode, stored, raw = entry
+                is_right &= (1 <= stored <= h.max_stored_bytes and raw <= h.max_raw_bytes
+                             and stored <= raw <= 255 * stored and (
+                                 k % 512 == 0 or k in h.layers
+                                 or entries[k % 512 - 1][1] <= octcode))
+                self.entries.append(Entry(*entry, self.start + at))
+                at += stored
+            is_right &= at == end
+        else:
+            places = [x[2] for x in entries] + [end]
+            is_right &= places[0] == start and all(x < y for x, y in itertools.pairwise(places))
+        self.expect(is_right or not is_known, "DIRECTORY", f"block {number} of level {level}")
+        for i, entry in enumerate(() if last else entries):
+            self.walk_directory(levels, level + 1, 512 * number + i, entry, *places[i:i + 2],
+                                is_right)
 
     def open_extensions(self) -> None:
         """2.9"""
         h, at, last = self.header, self.end, b""
-        data = self.read(HEADER_BYTES, 64 * h.extension_count)
         self.extensions: dict[str, Record] = {}
+        data = self.read(HEADER_BYTES, 64 * h.extension_count)
+        if len(data) < 64 * h.extension_count:                      # FILE_LENGTH says so
+            return
         good = xxh3_64_intdigest(data) == h.extensions_hash
-        for x in (Record(EXTENSION, data, i) for i in range(0, len(data) if good else 0, 64)):
+        for x in (Record(EXTENSION, data, i) for i in range(0, len(data), 64)):
             name = x.name.rstrip(b"\0").decode("latin-1")
             good &= bool(re.fullmatch("[a-z0-9._-]{1,24}", name) and last < x.name
                          and x.offset == at and x.required <= 1 and not any(x.reserved))
-            require(not good or name == "metadata" or not x.required,
-                    f"unknown extension {name}", "FORMAT_UNSUPPORTED")
+            self.expect(not good or not x.required, "EXTENSION",
+                        f"{name} is required and not known" if name != "metadata" else
+                        "metadata is required")
             self.extensions[name], at, last = x, at + x.bytes, x.name
-        self.expect(good and at == h.file_bytes - HEADER_BYTES, "EXTENSION",
+        good &= at == h.file_bytes - HEADER_BYTES
+        self.expect(good, "EXTENSION",
                     "the records break a rule, or pages and extensions do not fill the file")
+        if not good or any(x.required for x in self.extensions.values()):
+            self.extensions = {}
 
     def extension(self, name: str) -> bytes:
         x = self.extensions[name]
         data = self.read(x.offset, min(x.bytes, self.length))
+        require(len(data) == x.bytes, f"the bytes of {name} are cut short", "FILE_LENGTH")
         require(xxh3_64_intdigest(data) == x.check, f"the bytes of {name} are others", "EXTENSION")
         return data
 
@@ -331,9 +366,9 @@ class File:
 
     def raw_page(self, k: int) -> bytes:
         entry = self.entries[k]
-        stored, raw, end = entry.stored_bytes, entry.raw_bytes, min(self.length, self.end)
-        require(1 <= stored <= raw <= min(255 * stored, 2**20) and entry.offset + stored <= end,
-                "the entry of the page cannot be right", "PAGE_ENTRY")
+        stored, raw = entry.stored_bytes, entry.raw_bytes
+        require(1 <= stored <= raw <= min(255 * stored, 2**20)
+                and entry.offset + stored <= self.length, "lengths that cannot be", "PAGE_ENTRY")
         try:
             data = self.read(entry.offset, stored)
             require(xxh3_64_intdigest(data) == entry.check, "another hash", "PAGE_CHECKSUM")
@@ -519,9 +554,10 @@ vertices H  vertex_refs H  triangles H  reserved 8s"""
 CHILD = np.dtype([          # 6: the bounds of a child, relative to the centre
     ("lower", "f4", 3), ("upper", "f4", 3), ("middle", "f4", 3), ("unit", "f4"),
     ("normal", "f4", 3), ("slab_lower", "f4"), ("slab_upper", "f4"), ("radius", "f4")])
-Node = namedtuple("Node", "lower upper height links children")      # children: array of CHILD
-Block = namedtuple("Block", "ids corners flag")                     # corners: t x 3 x 3
-TreePage = namedtuple("TreePage", "root_count nodes blocks")
+Node = namedtuple("Node", "lower upper height links children moments")      # children: CHILDs
+# Of a block: corners as t x 3 x 3 coordinates, and their numbers in the page; vertices by number.
+Block = namedtuple("Block", "ids corners flag numbers vertices")
+TreePage = namedtuple("TreePage", "root_count nodes blocks ordinal vertices")
 
 
 def decode_tree(file: File, k: int, s: Streams) -> TreePage:
@@ -539,11 +575,13 @@ def decode_tree(file: File, k: int, s: Streams) -> TreePage:
     normals, slabs = s.take("i2", 2 * m).reshape(2, m), s.take("i2", 2 * m).reshape(2, m)
     child = np.zeros(m, CHILD)
     child["radius"] = s.take("u2", m)
+    moments = np.zeros((10, m), np.int64)               # x y z, xx yy xy yz zx, area, second
     if caps:
-        dipoles, quadrupoles, *areas = (s.take(*x) for x in (
-            ("i2", 3 * m), ("i1", 5 * m), ("u2", m), ("u2", m)))
-        require(in_range(dipoles, -32767, 32767) and in_range(quadrupoles, -127, 127)
-                and all(in_range(x, 0x80, 0x7F7F) for x in areas), "moments")
+        moments[:3], moments[3:8] = s.take("i2", 3 * m).reshape(3, m), s.take("i1", 5 * m).reshape(
+            5, m)
+        moments[8:] = s.take("u2", m), s.take("u2", m)
+        require(in_range(moments[:3], -32767, 32767) and in_range(moments[3:8], -127, 127)
+                and in_range(moments[8:], 0x80, 0x7F7F), "moments")
     link_pages, link_nodes = s.take("u4", head.page_links), s.take("u2", head.page_links)
     flags, totals, news = (s.take("u1", head.blocks) for _ in range(3))
     sizes, widths = flags & 63, 4 + (totals > 16) + (totals > 32)
@@ -556,7 +594,7 @@ def decode_tree(file: File, k: int, s: Streams) -> TreePage:
     vertices = vertices.reshape(3, -1).T
     first_ids = s.take(f"u{h.triangle_id_bytes}", head.blocks).tolist()
     steps = iter(s.take(f"u{h.triangle_id_bytes}", head.triangles - head.blocks).tolist())
-    require((abs(vertices) < 2.0**112).all(), "vertices")                           # 1.7
+    require((abs(vertices) <= 2.0**112).all(), "vertices")                           # 1.7
     blocks, used, weight = [], 0, node_weight * n                                   # 5.6 to 5.9
     weights = (11, 16, 20, 29) if h.vertex_kind else (5, 7, 8, 11)
     rows = zip(packed, first_ids, *(x.tolist() for x in (flags, totals, news, widths)))
@@ -574,11 +612,12 @@ def decode_tree(file: File, k: int, s: Streams) -> TreePage:
                 "id steps")
         compact = (h.vertex_kind == 0 and h.triangle_id_bytes == 4 and total <= 16
                    and ids[-1] - ids[0] <= 65535)
-        require(compact == flag >> 6 & 1 and (flag < 128 or not (caps or h.without_sides)),
-                "bits 6 and 7 of a triangle count")
+        require(compact == flag >> 6 & 1 and not (caps and flag >> 7), "bits 6 and 7")
         weight += weights[(total > 16) + (total > 24) + (total > 32)] - compact + (
             h.triangle_id_bytes == 8)
-        blocks.append(Block(ids, vertices[np.array(known)[corners]].reshape(-1, 3, 3), flag))
+        numbers = np.array(known)[corners]
+        corners = vertices[numbers].reshape(-1, 3, 3)
+        blocks.append(Block(ids, corners, flag, numbers.tolist(), known))
     require(weight <= capacity, "the records exceed the capacity of the page")
     require(in_range(counts, 1, 8) and counts.sum() == m and in_range(heights, 1, 96),
             "child counts or heights")
@@ -591,7 +630,8 @@ def decode_tree(file: File, k: int, s: Streams) -> TreePage:
             and (kinds == BLOCK).sum() == (head.blocks if n else 0), "records or links are left")
     numbers[inner], numbers[kinds == BLOCK] = range(roots, n), range(head.blocks if n else 0)
     numbers[kinds == OTHER_PAGE], pages[kinds == OTHER_PAGE] = link_nodes, link_pages
-    require((parents < numbers)[inner].all(), "a node comes before the node that refers to it")
+    require((parents < numbers)[inner].all()
+            and (heights[numbers[inner]] < heights[parents[inner]]).all(), "order or heights")
     require((k < link_pages).all() and (link_pages < (file.e if caps else file.c)).all()
             and (link_nodes < capacity // node_weight).all(), "links")
     require(np.isfinite(own[:, 1] - own[:, 0]).all() and (own[:, 0] <= own[:, 1]).all()
@@ -609,9 +649,9 @@ def decode_tree(file: File, k: int, s: Streams) -> TreePage:
     require((child["lower"] <= child["upper"]).all(), "child boxes")
     set_discs(child, normals, slabs)
     links = list(zip((kinds == BLOCK).astype(int).tolist(), pages.tolist(), numbers.tolist()))
-    nodes = [Node(*own[i], heights[i], links[x:y], child[x:y])
+    nodes = [Node(*own[i], heights[i], links[x:y], child[x:y], moments[:, x:y].T)
              for i, (x, y) in enumerate(itertools.pairwise(ends))]
-    return TreePage(roots, nodes, blocks)
+    return TreePage(roots, nodes, blocks, head.ordinal, vertices)
 
 
 def set_discs(child: np.ndarray, normals: np.ndarray, slabs: np.ndarray) -> None:
@@ -633,8 +673,12 @@ def set_discs(child: np.ndarray, normals: np.ndarray, slabs: np.ndarray) -> None
 MASK_HEAD = """records H  roots H  nodes H  page_links H  plain H
 with_corners H  special H  planes H  listed H  block_links H  reserved I"""
 LINKED_NODE = 1                         # kinds above it are leaves
-MaskPage = namedtuple("MaskPage", "root_count kinds families")
-Family = namedtuple("Family", "page first octants are_leaves")      # of the node with that number
+MaskPage = namedtuple("MaskPage", "root_count kinds families leaves")
+# Of the node with that number; signs: of the winding numbers of octants that are not grey.
+Family = namedtuple("Family", "page first octants are_leaves signs")
+# Corners: None if they are not stated; blocks: page, number and octants of each.
+Leaf = namedtuple("Leaf", "corners planes behind beyond blocks slab",
+                  defaults=[None, (), 0, 0, (), ()])
 
 
 def decode_mask(file: File, k: int, s: Streams) -> MaskPage:
@@ -648,11 +692,11 @@ def decode_mask(file: File, k: int, s: Streams) -> MaskPage:
             and (k > file.d or head.roots == 1 and kinds[0] != LINKED_NODE), "the head of the page")
     grey, leaf, black, inverted = (s.take("u1", head.nodes) for _ in range(4))
     links = zip(*(s.take(x, head.page_links).tolist() for x in ("u4", "u2")))
-    s.take("u1", head.plain)
+    plain = s.take("u1", head.plain)
     corners = s.take("i1", 8 * head.with_corners).reshape(-1, 8)
     plane_counts, behind, beyond = (s.take(x, head.special) for x in ("u1", "i1", "i1"))
     planes = s.take("f8" if h.vertex_kind else "f4", 9 * head.planes)
-    least, _, counts, slabs, lowers, uppers = (
+    least, higher, counts, slabs, lowers, uppers = (
         s.take(x, head.listed) for x in ("i1", "u1", "u1", "u2", "u1", "u1"))
     octants, pages, numbers = (s.take(x, head.block_links) for x in ("u1", "u4", "u2"))
     require(not (leaf & ~grey | black & grey | inverted & (grey | black)).any(), "masks")
@@ -668,23 +712,37 @@ def decode_mask(file: File, k: int, s: Streams) -> MaskPage:
             and (numbers < h.page_bytes // 256).all(), "lists of blocks")
     require(head.records + 9 * head.planes + (-(-counts // 8) + (counts + 2) // 2).sum()
             <= h.page_bytes // 8 - h.page_bytes // 512 - 8, "the page exceeds its capacity")
-    families, masks, end = {}, zip(grey.tolist(), leaf.tolist()), head.roots        # 9.3
+    families, end = {}, head.roots                                                  # 9.3
+    masks = zip(*map(np.ndarray.tolist, (grey, leaf, black, inverted)))
     for i, kind in enumerate(kinds):
         require(i < end, "a record belongs to no family")
         if kind > LINKED_NODE:
             continue
-        bits, leaf_bits = next(masks)
+        bits, *more = next(masks)
         page, first = next(links) if kind == LINKED_NODE else (k - file.d, end)
-        octants = [o for o in range(8) if bits >> o & 1]
-        families[i] = Family(file.d + page, first, octants, [leaf_bits >> o & 1 for o in octants])
+        members = [o for o in range(8) if bits >> o & 1]
+        leaf_bits, blacks, others = ([x >> o & 1 for o in range(8)] for x in more)
+        families[i] = Family(file.d + page, first, members, [leaf_bits[o] for o in members], {
+            o: blacks[o] - others[o] for o in range(8) if o not in members})
         if kind == LINKED_NODE:
             require(bits and k < file.d + page < file.n, "links")
         else:
-            end += len(octants)
+            end += len(members)
             require([x > LINKED_NODE for x in kinds[first:end]] == families[i].are_leaves,
                     "the kinds of a family")
     require(end == head.records, "records are left")
-    return MaskPage(head.roots, kinds, families)
+    bits, places = np.arange(8), np.split(planes.astype(float).reshape(-1, 3, 3),
+                                          np.cumsum(plane_counts)[:-1])
+    lists = map(np.ndarray.tolist, np.split(np.array([pages, numbers, octants]).T,
+                                            np.cumsum(counts)[:-1]))
+    leaves = {2: (Leaf((x >> bits & 1).tolist()) for x in plain),
+              3: (Leaf(x.tolist() if x[0] != -128 else None) for x in corners),
+              4: (Leaf(None, *x) for x in zip(places, behind.tolist(), beyond.tolist())),
+              5: (Leaf((int(x) + (y >> bits & 1)).tolist(), blocks=z, slab=slab)
+                  for x, y, z, *slab in zip(least, higher, lists, *map(np.ndarray.tolist, (
+                      slabs, lowers, uppers))))}
+    return MaskPage(head.roots, kinds, families, {
+        i: next(leaves[kind]) for i, kind in enumerate(kinds) if kind > LINKED_NODE})
 
 
 def small_head(file: File, k: int, s: Streams, first: int, each: int, total: int) -> int:
@@ -854,104 +912,6 @@ def solid_angle(p: Vec, corners: list[Vec]) -> float:
     return math.atan2(volume / scale**3, turn) / (2 * math.pi)
 
 
-# --- Issues (ISSUES.md) ---------------------------------------------------------------------------
-def verify(path: str, full: bool = False) -> list[Issue]:
-    issues: list[Issue] = []
-    try:
-        file = File(path, issues)
-        for part in (*(file.metadata if x == "metadata" else partial(file.extension, x)
-                       for x in file.extensions), *(partial(file.page, k) for k in range(file.n))):
-            try:
-                part()
-            except Issue as issue:
-                issues.append(issue)
-        trees = file.surface, file.caps
-        check_mask(file)
-        if full and all(tree.is_whole for tree in trees):
-            for tree in trees:
-                check_bounds(file, tree)
-            check_surface(file)
-            check_edges(file)
-    except Issue as issue:
-        issues.append(issue)
-    return issues
-
-
-def check_mask(file: File) -> None:
-    """8.3, 9.3, 9.4: links, levels and counts."""
-    h, seen, levels = file.header, set(), 0
-    stack = [(0, file.d, 0, None, True)] if file.d < file.n else []
-    while stack:
-        level, k, number, is_leaf, is_linked = stack.pop()
-        page, levels = file.known_page(k), max(levels, level)
-        if page is None:
-            continue
-        good = (number < len(page.kinds) and (number < page.root_count) == is_linked
-                and is_leaf in (None, page.kinds[number] > LINKED_NODE))
-        file.expect(good, "LINK_TARGET", "a link leads to no such family", k)
-        file.expect((k, number) not in seen, "LINK_TWICE", "two links lead to a family", k)
-        file.expect(level < 19 or number not in page.families, "PAGE_STRUCTURE", "level 19", k)
-        if good and (k, number) not in seen and level <= 19:
-            seen.add((k, number))
-            family = page.families.get(number, Family(k, 0, (), ()))
-            linked = page.kinds[number] == LINKED_NODE
-            stack += [(level + 1, family.page, family.first + i, leaf, linked)
-                      for i, leaf in enumerate(family.are_leaves)]
-    file.expect(not file.all_linked(file.d, file.n, seen) or (len(seen), levels) == (
-        h.mask_cell_count, h.mask_levels), "COUNT", "other numbers of grey cells or levels")
-
-
-def check_bounds(file: File, tree: Tree) -> None:
-    """7.1, 7.2"""
-    for (_, k, _), node in tree.records.items():
-        for link, child in zip(*node[3:] if isinstance(node, Node) else ((), ())):
-            c = {name: child[name].astype(float) for name in CHILD.names}
-            d = tree.corners[slice(*tree.spans[link])].reshape(-1, 3) - file.header.centre
-            file.expect(((c["lower"] <= d) & (d <= c["upper"])).all(), "VERTEX_OUTSIDE_BOX",
-                        "a corner lies outside of a child's box", k)
-            e, r = d - c["middle"], 32000 * c["unit"]
-            slack, height = 8 * r * 2.0**-24 * (1 - 1e-9), e @ c["normal"]
-            away = np.linalg.norm(np.cross(e, c["normal"]), axis=1)
-            is_in = ((c["slab_lower"] + slack <= height) & (height <= c["slab_upper"] - slack)
-                     & (away <= c["radius"] - slack)).all()
-            file.expect(is_in or not math.isfinite(r) or max(c["upper"] - c["lower"]) < 2.0**-60,
-                        "VERTEX_OUTSIDE_PLANES", "a corner lies outside of a disc", k)
-
-
-def check_surface(file: File) -> None:
-    """2.4, 3, 5.6, 5.11"""
-    h, surface, caps = file.header, file.surface, file.caps
-    for index, times in itertools.chain(Counter(surface.ids).items(), Counter(caps.ids).items()):
-        file.expect(times == 1, "TRIANGLE_TWICE", f"{times} triangles have the index {index}")
-    box, stated = np.array([surface.lower.min(axis=0), surface.upper.max(axis=0)]), file.box
-    file.expect((box == stated).all() or file.has_walls and (box[0] >= stated[0]).all()
-                and (box[1] <= stated[1]).all(), "MODEL_BOX", "that of the triangles is another")
-    row = surface.ids.index(min(surface.ids))
-    file.expect((surface.ids[row], surface.at(row)[0]) == (h.sample_triangle, h.sample), "SAMPLE",
-                "not corner 0 of the triangle with the least index")
-    a, b, c = caps.corners.transpose(1, 0, 2)
-    area = math.fsum(np.linalg.norm(np.cross(b - a, c - a) / 2, axis=1))
-    file.expect((caps.lower >= stated[0]).all() and (caps.upper <= stated[1]).all()
-                and abs(area - h.cap_area) <= 1e-9 * area, "CAPS", "outside of the box, or area")
-
-
-def check_edges(file: File) -> None:
-    """2.5, 5.11; not with walls, because triangles beyond them are not in the file."""
-    def edges(tree: Tree) -> Iterator[tuple[Vec, Vec]]:
-        corners = (tree.at(row) for row in range(0 if file.has_walls else len(tree.ids)))
-        return ((t[i], t[i - 2]) for t in corners for i in AXES if t[i] != t[i - 2])
-
-    h, runs = file.header, Counter(edges(file.surface))
-    listed = [(scaled(e.start, h.scale_exponent), scaled(e.end, h.scale_exponent)) for e in h.edges]
-    unbalanced = {frozenset(x) for x in runs if runs[x] != runs[x[::-1]]}
-    file.expect(file.has_walls or len(unbalanced) == h.unbalanced_edge_count and all(
-        (runs[x], runs[x[::-1]]) == (e.along, e.against) for x, e in zip(listed, h.edges)),
-        "UNBALANCED_EDGES", f"other numbers than stated; {len(unbalanced)} edges in all")
-    runs.update(edges(file.caps))
-    file.expect(h.cap_count == 0 or all(runs[x] == runs[x[::-1]] for x in runs), "CAPS",
-                "the surface and its caps are not watertight together")
-
-
 # --- Command line ---------------------------------------------------------------------------------
 def describe(file: File) -> dict[str, Any]:
     h, kinds = file.header, ("distance", "cap", "field", "attribute", "mask")
@@ -966,16 +926,9 @@ def describe(file: File) -> dict[str, Any]:
 def main() -> int:
     parser = argparse.ArgumentParser(description="Read a .ptree file.")
     parser.add_argument("file")
-    parser.add_argument("--verify", action="store_true", help="check the file")
-    parser.add_argument("--full", action="store_true", help="check triangles too")
     parser.add_argument("--answers", metavar="POINTS", help="a JSON file with points and indices")
     arguments = parser.parse_args()
     try:
-        if arguments.verify:
-            issues = [{"code": x.code, "page": x.page, "message": x.message}
-                      for x in verify(arguments.file, arguments.full)]
-            print(json.dumps({"issues": issues[:1000]}))
-            return 1 if issues else 0
         file = File(arguments.file)
         if arguments.answers:
             with open(arguments.answers, encoding="utf-8") as stream:

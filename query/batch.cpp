@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "octree/geometry/octcode.h"
+#include "query/batch_prefetch.h"
 #include "query/serve/batch_threads.h"
 
 namespace planetree::query {
@@ -53,6 +54,7 @@ template <class T>
 // The queries of a batch that are sorted together, and their answers.
 //
 // answer_of  answer_of(probe, query) returns the answer of one of `queries`
+// options    of the queries
 template <class Query, class Answer, class AnswerOf>
 struct Window {
   const BatchOrder& order;
@@ -60,8 +62,25 @@ struct Window {
   std::span<Answer> answers;
   const AnswerOf& answer_of;
   const ServingModel& model;
+  const QueryOptions& options;
 
   void run(ProbeState& probe, std::size_t first, std::size_t end) const noexcept {
+    if constexpr (std::is_same_v<Query, Vec3>)
+      if (BatchPrefetch::helps(probe, options)) return run_remote(probe, first, end);
+    run_all(probe, first, end);
+  }
+  void run_remote(ProbeState& probe, std::size_t first, std::size_t end) const noexcept {
+    BatchPrefetch ahead(probe, queries, order, options);
+    probe.set_looks_ahead(false);
+    while (first < end) {
+      const std::size_t stop = std::min(first + BatchPrefetch::kQueries, end);
+      ahead.run(first, stop);
+      run_all(probe, first, stop);
+      first = stop;
+    }
+    probe.set_looks_ahead(true);
+  }
+  void run_all(ProbeState& probe, std::size_t first, std::size_t end) const noexcept {
     constexpr std::size_t kAhead = 2;  // queries
     probe.coherence().nearest.follow(octree::CoherenceCache::Course::kCurve);
     probe.set_in_batch(true);
@@ -123,14 +142,15 @@ std::span<std::uint64_t> keys_for(BatchBuffers& storage, std::span<Answer> answe
 // Runs all queries, in an order that switches pages seldom: the caller's, if it does.
 template <class Query, class Answer, class AnswerOf>
 void query_in_order(ProbeState& probe, std::span<const Query> queries, std::span<Answer> answers,
-                    Wait wait, const AnswerOf& answer_of) noexcept {
+                    const QueryOptions& options, const AnswerOf& answer_of) noexcept {
   assert(queries.size() == answers.size());
   using Pieces = Window<Query, Answer, AnswerOf>;
   const auto run = [&](const BatchOrder& order, std::size_t count) {
-    const Pieces window{order, queries.first(count), answers.first(count), answer_of,
-                        probe.model()};
+    const Pieces window{order,     queries.first(count), answers.first(count),
+                        answer_of, probe.model(),        options};
     // BatchThreads take locks and wait for each other. Real-time queries must not.
-    BatchThreads* const threads = wait == Wait::kNever ? nullptr : probe.model().batch_threads;
+    BatchThreads* const threads =
+        options.wait == Wait::kNever ? nullptr : probe.model().batch_threads;
     if (!threads || !threads->run(&window, count, &Pieces::run_piece)) window.run(probe, 0, count);
     queries = queries.subspan(count);
     answers = answers.subspan(count);
@@ -154,12 +174,12 @@ void query_in_order(ProbeState& probe, std::span<const Query> queries, std::span
 // find  find(probe, query, room) returns what a query found
 template <class Find>
 void find_in_order(ProbeState& probe, std::span<const Vec3> queries,
-                   std::span<ClosestPoint> answers, std::span<Found> found, Wait wait,
-                   const Find& find) noexcept {
+                   std::span<ClosestPoint> answers, std::span<Found> found,
+                   const QueryOptions& options, const Find& find) noexcept {
   if (queries.empty()) return;
   assert(answers.size() % queries.size() == 0);
   const std::size_t share = answers.size() / queries.size();
-  query_in_order(probe, queries, found, wait, [&](ProbeState& own, const Vec3& query) noexcept {
+  query_in_order(probe, queries, found, options, [&](ProbeState& own, const Vec3& query) noexcept {
     const auto at = static_cast<std::size_t>(&query - queries.data());
     return find(own, query, answers.subspan(at * share, share));
   });
@@ -169,7 +189,7 @@ void find_in_order(ProbeState& probe, std::span<const Vec3> queries,
 
 void closest_points(ProbeState& probe, std::span<const Vec3> queries,
                     std::span<ClosestPoint> answers, const QueryOptions& options) noexcept {
-  query_in_order(probe, queries, answers, options.wait,
+  query_in_order(probe, queries, answers, options,
                  [&options](ProbeState& own, const Vec3& query) noexcept {
                    return own.closest_point(query, options);
                  });
@@ -177,7 +197,9 @@ void closest_points(ProbeState& probe, std::span<const Vec3> queries,
 
 void contains(ProbeState& probe, std::span<const Vec3> queries, std::span<Containment> answers,
               const QueryOptions& options) noexcept {
-  query_in_order(probe, queries, answers, options.wait,
+  QueryOptions of_sides = options;
+  of_sides.parts = kSide;
+  query_in_order(probe, queries, answers, of_sides,
                  [&options](ProbeState& own, const Vec3& query) noexcept {
                    return own.contains(query, options);
                  });
@@ -187,7 +209,7 @@ void find_triangles(ProbeState& probe, std::span<const Vec3> queries, double rad
                     std::span<ClosestPoint> answers, std::span<Found> found,
                     const QueryOptions& options) noexcept {
   find_in_order(
-      probe, queries, answers, found, options.wait,
+      probe, queries, answers, found, options,
       [&](ProbeState& own, const Vec3& query, std::span<ClosestPoint> room) noexcept {
         return own.find_triangles(TriangleSetQuery{query, radius, wants_all}, room, options);
       });
@@ -196,7 +218,7 @@ void find_triangles(ProbeState& probe, std::span<const Vec3> queries, double rad
 void find_contacts(ProbeState& probe, std::span<const Vec3> queries, double radius,
                    std::span<ClosestPoint> answers, std::span<Found> found,
                    const QueryOptions& options) noexcept {
-  find_in_order(probe, queries, answers, found, options.wait,
+  find_in_order(probe, queries, answers, found, options,
                 [&](ProbeState& own, const Vec3& query, std::span<ClosestPoint> room) noexcept {
                   return own.find_contacts(query, radius, room, options);
                 });
@@ -204,14 +226,14 @@ void find_contacts(ProbeState& probe, std::span<const Vec3> queries, double radi
 
 void first_hits(ProbeState& probe, std::span<const Ray> rays, std::span<RayHit> hits,
                 const QueryOptions& options) noexcept {
-  query_in_order(
-      probe, rays, hits, options.wait,
-      [&options](ProbeState& own, const Ray& ray) noexcept { return own.first_hit(ray, options); });
+  query_in_order(probe, rays, hits, options, [&options](ProbeState& own, const Ray& ray) noexcept {
+    return own.first_hit(ray, options);
+  });
 }
 
 void first_contacts(ProbeState& probe, std::span<const Sweep> sweeps,
                     std::span<FirstContact> contacts, const QueryOptions& options) noexcept {
-  query_in_order(probe, sweeps, contacts, options.wait,
+  query_in_order(probe, sweeps, contacts, options,
                  [&options](ProbeState& own, const Sweep& sweep) noexcept {
                    return own.first_contact(sweep, options);
                  });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <new>
+#include <optional>
 #include <utility>
 
 #include "octree/geometry/fp_environment.h"
@@ -16,6 +17,7 @@
 #include "query/serve/page_accessor.h"
 #include "query/serve/trace_decoder.h"
 #include "storage/file/metadata.h"
+#include "storage/http/open_source.h"
 
 namespace planetree {
 namespace query {
@@ -52,10 +54,37 @@ unsigned thread_probes(const OpenOptions& options) {
 // Model::triangles() has a reader of its own, without a probe.
 unsigned finders(const OpenLayers& opened) { return opened.has_attributes() ? 1 : 0; }
 
-Pager::Limits limits_of(const storage::FileHeader& header, const OpenOptions& options) {
+// Opens the file or the URL.
+Result<storage::PageFile> open_page_file(const std::filesystem::path& path,
+                                         const OpenOptions& options, const ModelSeams& seams) {
+  storage::HttpOptions http;
+  http.cache_directory = options.http_cache;
+  http.cache_bytes = options.http_cache_bytes;
+  http.limits = seams.http_limits;
+  auto source = storage::open_source(path, http, seams.calls);
+  if (!source) return source.error();
+  return storage::PageFile::open(std::move(*source));
+}
+
+TableLimits table_limits_of(const storage::PageFile& file) {
+  return file.source().is_remote() ? remote_limits(file.header()) : TableLimits{};
+}
+
+// Gets the upper pages of tree and mask, which are the first of their kinds in the file.
+void prefetch_first_pages(const storage::PageFile& file, const OpenLayers& opened) {
+  const storage::FileHeader& header = file.header();
+  const std::uint32_t first_mask_page = header.first_mask_page();
+  if (!opened.has_side() || first_mask_page == header.page_count) return;
+  file.prefetch({&first_mask_page, 1});
+}
+
+Pager::Limits limits_of(const storage::PageFile& file, const OpenOptions& options) {
+  const storage::FileHeader& header = file.header();
+  const std::uint32_t layers =
+      file.source().is_remote() ? remote_layers(header, options.layers) : options.layers;
   Pager::Limits limits;
   limits.budget_bytes = options.memory_budget_bytes;
-  limits.opened = OpenLayers::of(header.model, options.layers);
+  limits.opened = OpenLayers::of(header.model, layers);
   limits.max_probes = options.max_probes;
   limits.probe_bytes = sizeof(BatchBuffers);
   limits.thread_probes = thread_probes(options) + finders(limits.opened);
@@ -67,7 +96,7 @@ Pager::Limits limits_of(const storage::FileHeader& header, const OpenOptions& op
   limits.wait_limit = std::chrono::milliseconds(options.wait_limit_ms);
   limits.use_io_uring = options.use_io_uring;
   limits.policy = options.policy;
-  limits.arena = arena_needs(header, limits.opened, limits.readers());
+  limits.arena = arena_needs(header, limits.opened, limits.readers(), table_limits_of(file));
   limits.arena.contact_bytes = sizeof(octree::ContactTriangles);
   limits.arena.page_trace_capacity = options.page_trace_capacity;
   limits.arena.page_count = limits.opened.page_count(header);
@@ -89,9 +118,14 @@ ModelState::ModelState(std::unique_ptr<Pager> pager)
 ModelState::~ModelState() = default;
 
 Result<void> ModelState::load() {
+  if (pager_->file().source().is_remote()) {
+    serving_->remote_file = &pager_->file();
+    prefetch_first_pages(pager_->file(), pager_->opened());
+  }
   auto reader = claim_reader();
   if (!reader) return reader.error();
-  const auto loaded = load_model(*serving_, pager_->file(), pager_->opened(), *reader);
+  const auto loaded = load_model(*serving_, pager_->file(), pager_->opened(), *reader,
+                                 table_limits_of(pager_->file()));
   if (!loaded) return loaded.error();
   field_damaged_ = loaded->field_is_damaged;
   return {};
@@ -139,9 +173,9 @@ Result<std::unique_ptr<ModelState>> ModelState::open(const std::filesystem::path
                                                      const ModelSeams& seams) {
   if (const auto checked = octree::check_arithmetic(); !checked) return checked.error();
   if (const auto checked = check_options(options); !checked) return checked.error();
-  auto file = storage::PageFile::open(path, seams.calls);
+  auto file = open_page_file(path, options, seams);
   if (!file) return file.error();
-  Pager::Limits limits = limits_of(file->header(), options);
+  Pager::Limits limits = limits_of(*file, options);
   limits.trace_time = seams.trace_time;
   auto pager = Pager::create(std::move(*file), limits);
   if (!pager) return pager.error();
@@ -160,9 +194,9 @@ Result<std::unique_ptr<ModelState>> ModelState::open(const std::filesystem::path
 Result<std::uint64_t> ModelState::min_budget_bytes(const std::filesystem::path& path,
                                                    const OpenOptions& options) {
   if (const auto checked = check_options(options); !checked) return checked.error();
-  auto file = storage::PageFile::open(path);
+  auto file = open_page_file(path, options, {});
   if (!file) return file.error();
-  return Pager::min_budget_bytes(*file, limits_of(file->header(), options));
+  return Pager::min_budget_bytes(*file, limits_of(*file, options));
 }
 
 Result<Model> ModelState::open_model(const std::filesystem::path& path, const OpenOptions& options,
@@ -219,6 +253,10 @@ Stats ModelState::stats() const noexcept {
     stats.pages_prefetched = fetch_threads_->pages_prefetched();
     stats.pages_read_ahead = fetch_threads_->pages_read_ahead();
   }
+  const storage::SourceStats source = pager_->file().source().stats();
+  stats.http_requests = source.requests;
+  stats.http_bytes = source.bytes;
+  stats.http_cached_bytes = source.cached_bytes;
   stats.layers = pager_->opened().layers;
   stats.locked_bytes = pager_->locked_bytes();
   stats.field_damaged = field_damaged_;
@@ -239,6 +277,7 @@ Model::~Model() = default;
 
 const ModelInfo& Model::info() const noexcept { return state_->info(); }
 Stats Model::stats() const noexcept { return state_->stats(); }
+std::optional<Error> Model::read_error() const noexcept { return state_->read_error(); }
 Result<Metadata> Model::metadata() const { return state_->metadata(); }
 Result<void> Model::triangles(std::span<const std::uint64_t> indices,
                               std::span<MeshTriangle> triangles) const noexcept {

@@ -19,6 +19,7 @@
 #include "query/serve/read_ahead.h"
 #include "query/serve/trace_clock.h"
 #include "query/serving_model.h"
+#include "storage/http/http_options.h"
 #include "storage/system/file_calls.h"
 
 namespace planetree::query {
@@ -30,6 +31,7 @@ struct ModelSeams {
   storage::FileCalls& calls = storage::FileCalls::real();  ///< must outlive the model
   bool starts_fetching = true;                             ///< start fetch threads
   TimeSource trace_time{};  ///< time of the page trace; its context must outlive the model
+  storage::HttpLimits http_limits{};  ///< of the requests for a remote file
 };
 
 /// The implementation of Model: pager, state in the arena, threads. Any thread may call the const
@@ -61,6 +63,8 @@ class ModelState {
   /// Returns the reader of a new probe, or kBadArgument if all readers are in use.
   Result<cache::Reader> claim_reader() const noexcept { return pager_->cache().claim_reader(); }
   cache::PageCache& cache() const noexcept { return pager_->cache(); }
+  /// See Model::read_error.
+  std::optional<Error> read_error() const noexcept { return pager_->read_error(); }
   /// See Model::metadata.
   Result<Metadata> metadata() const;
   /// See Model::triangles.

@@ -52,6 +52,13 @@ ClosestPoint ProbeState::find_closest_point(const Vec3& query,
 }
 
 ClosestPoint ProbeState::closest_point(const Vec3& query, const QueryOptions& options) noexcept {
+  if (model_.remote_file && looks_ahead_ && options.wait == Wait::kForPages &&
+      !look_ahead(query, options)) {
+    // After one wait in vain, the query waits for no other page.
+    QueryOptions at_once = options;
+    at_once.wait = Wait::kNever;
+    return find_closest_point<PageAccess::Query::kClosestPoint>(query, at_once);
+  }
   return find_closest_point<PageAccess::Query::kClosestPoint>(query, options);
 }
 
@@ -131,6 +138,23 @@ bool ProbeState::fetch_page(std::uint32_t page, const std::atomic<bool>& stop) n
   // A page that is resident already was not looked up by a query, and counts as no hit.
   if (!pages.peek(pages.context, page)) pages.page(pages.context, page);
   return running.fetched() > 0;
+}
+
+std::uint32_t ProbeState::first_missing_page(const Vec3& query,
+                                             const QueryOptions& options) noexcept {
+  assert(options.wait == Wait::kNever);
+  if (!is_valid(query, options)) return PageAccessor::kNoPage;
+  RunningQuery running(*this, PageAccess::Query::kPrefetch, options.wait);
+  ClosestPoint unused = unanswered(Status::kExact);
+  query::closest_point(running.context(), query, with_defaults(options), unused);
+  return running.first_missed();
+}
+
+ProbeState::Loaded ProbeState::load_page(std::uint32_t page) noexcept {
+  RunningQuery running(*this, PageAccess::Query::kPrefetch, Wait::kForPages);
+  const octree::PageReader& pages = running.pages();
+  if (pages.page(pages.context, page)) return Loaded::kResident;
+  return running.missed() ? Loaded::kLate : Loaded::kUnreadable;
 }
 
 Found ProbeState::find_triangles(const TriangleSetQuery& query, std::span<ClosestPoint> found,

@@ -89,6 +89,9 @@ class ProbeState {
   void set_in_batch(bool in_batch) noexcept {
     if (trace_) trace_->set_in_batch(in_batch);
   }
+  /// Says whether queries that wait get pages from a server by themselves, many at once. A batch
+  /// does it for them.
+  void set_looks_ahead(bool looks_ahead) noexcept { looks_ahead_ = looks_ahead; }
   /// See FetchProbe::fetch_pages.
   std::uint32_t fetch_pages(const Vec3& query, const QueryOptions& options, FetchReason reason,
                             const std::atomic<bool>& stop) noexcept;
@@ -100,6 +103,13 @@ class ProbeState {
                  const std::atomic<bool>& stop) noexcept;
   /// See FetchProbe::fetch_page.
   bool fetch_page(std::uint32_t page, const std::atomic<bool>& stop) noexcept;
+  /// Returns the first page that a closest-point query that does not wait lacks, or
+  /// PageAccessor::kNoPage. Leaves no request and counts no answer.
+  std::uint32_t first_missing_page(const Vec3& query, const QueryOptions& options) noexcept;
+  /// What became of a page that load_page() asked for.
+  enum class Loaded : std::uint8_t { kResident, kUnreadable, kLate };
+  /// Makes a page resident, as a blocking query does.
+  Loaded load_page(std::uint32_t page) noexcept;
   /// See FetchProbe::read_awaited_page.
   bool read_awaited_page() noexcept {
     if (trace_) {
@@ -137,6 +147,7 @@ class ProbeState {
   Found find_set(const Vec3& centre, double radius, std::span<ClosestPoint> found,
                  const QueryOptions& options, const Find& find) noexcept;
   void note_degraded(double width, bool missed) noexcept;
+  bool look_ahead(const Vec3& query, const QueryOptions& options) noexcept;
   void request(const Vec3& query, const QueryOptions& options, std::uint32_t parts,
                std::uint64_t triangles = 0, double radius = 0) noexcept;
   void note_missing_way(const ModelLine& way, double end, double radius, std::uint64_t count,
@@ -152,6 +163,7 @@ class ProbeState {
   SideRule last_side_rule_ = SideRule::kOfFile;  // its side rule; not of contains_fast()
   std::uint64_t work_spent_ = 0;                 // units of all queries
   std::uint64_t side_searches_ = 0;              // closest-point queries that searched for the side
+  bool looks_ahead_ = true;
   Coherence coherence_;
 };
 
@@ -184,6 +196,7 @@ class ProbeState::RunningQuery {
   std::uint64_t units() const noexcept { return work_.units; }
   std::uint32_t fetched() const noexcept { return accessor_.fetched(); }
   bool missed() const noexcept { return accessor_.missed(); }
+  std::uint32_t first_missed() const noexcept { return accessor_.first_missed(); }
   /// Notes an answer of which nothing is known but what it says.
   void note_degraded() noexcept {
     accessor_.pages().need_others();

@@ -35,6 +35,7 @@ struct ServingModel {
   cache::FetchTerms fetcher_terms{};      ///< how fetch threads wait for pages
   BatchThreads* batch_threads = nullptr;  ///< null: batches run on the caller's thread
   std::span<const std::unique_ptr<ProbeState>> batch_probes;  ///< one per thread of batch_threads
+  const storage::PageFile* remote_file = nullptr;             ///< null: the file is of this machine
   std::span<octree::ContactTriangles> contacts;               ///< see contact_triangles()
   std::uint32_t contacts_reader = 0;                          ///< reader index of the first of them
   mutable std::atomic<std::uint64_t> degraded{0};             ///< number of degraded answers
@@ -74,7 +75,17 @@ struct TableLimits {
   std::uint64_t grid_bytes = std::numeric_limits<std::uint64_t>::max();
   /// Of the coarse field: it is thinned as far as that is possible (FieldShape::thinning_for).
   std::uint64_t field_bytes = std::numeric_limits<std::uint64_t>::max();
+  bool fills_side_grid = true;  ///< false: there is none, so that its pages need not be read
+  bool fills_cap_grid = true;   ///< likewise
 };
+
+/// Returns limits of the tables of a file on another machine: none is filled that takes more than
+/// about kMaxRemoteTableBytes of the file.
+TableLimits remote_limits(const storage::FileHeader& header) noexcept;
+inline constexpr std::uint64_t kMaxRemoteTableBytes = std::uint64_t{1} << 17;
+
+/// Returns those of the layers `wanted` that a remote file opens: not the field, if it is large.
+std::uint32_t remote_layers(const storage::FileHeader& header, std::uint32_t wanted) noexcept;
 
 /// Returns what the arena of a model needs for so many readers, without contacts and traces.
 QueryArena::Needs arena_needs(const storage::FileHeader& header, const OpenLayers& opened,

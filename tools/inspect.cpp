@@ -243,7 +243,8 @@ int run_inspect(const InspectArguments& arguments, Console& console) {
   if (!arguments.bounds.output.empty()) return show_bounds(bounds_of(arguments), console);
   if (arguments.why) return show_why(arguments, console);
   const std::string file = arguments.file.string();
-  auto parts = FileParts::open(arguments.file);
+  auto parts = FileParts::open(arguments.file, storage::FileCalls::real(),
+                               {arguments.http_cache.directory, arguments.http_cache.bytes, {}});
   if (!parts) return console.fail(file, parts.error());
   Inspection inspection(arguments, console, *parts);
   // A file without a readable header or directory has no pages to show.
@@ -265,7 +266,8 @@ void add_inspect(CLI::App& app, Console& console, std::function<int()>& action) 
   InspectArguments& arguments = options->arguments;
   SubcommandOptions subcommand(app, "inspect",
                                "Show the contents of a .ptree file, also of a damaged one");
-  subcommand.require(subcommand.path("file", "FILE", arguments.file, "File to inspect"));
+  subcommand.require(
+      subcommand.path("file", "FILE", arguments.file, "File to inspect, or a URL of one"));
   subcommand.flag("--levels", arguments.levels,
                   "Add a row for each depth of the tree and each level of the mask");
   subcommand.flag("--pages", arguments.pages,
@@ -300,6 +302,7 @@ void add_inspect(CLI::App& app, Console& console, std::function<int()>& action) 
   const auto force = subcommand.flag("--force", arguments.html.force,
                                      "Replace the file of --image, --export-bounds or --html if it "
                                      "exists");
+  add_http_cache(subcommand, arguments.http_cache);
   subcommand.flag("--json", arguments.json,
                   "Report as one JSON object; progress as JSON lines, on standard error");
   subcommand.flag("--quiet", arguments.quiet, "Show no progress");

@@ -7,6 +7,7 @@
 
 #include "planetree/types.h"
 #include "tools/cli/file_text.h"
+#include "tools/cli/open_model.h"
 #include "tools/cli/report_page.h"
 #include "tools/cli/subcommand.h"
 #include "tools/report/show_bounds.h"
@@ -28,7 +29,8 @@ struct InspectArguments {
   SliceArguments slice;    ///< if it has a plane; `file`, `json` and `quiet` are those of this
   BoundsArguments bounds;  ///< likewise, if it has an output
   std::optional<Vec3> why;
-  PageChoice html;  ///< page to write; --force is also for the picture and the bounds
+  HttpCacheChoice http_cache;  ///< for a URL
+  PageChoice html;             ///< page to write; --force is also for the picture and the bounds
   bool json = false;
   bool quiet = false;
 };

@@ -62,7 +62,7 @@ class QueryRun {
   int run(RowReader<Query>& queries, AnswerOutput& output) {
     form_.shows_range = queries.numbers() > shape_of(arguments_.kind).required;
     int status = answer(queries, output);
-    const auto error = pages_lost(model_.stats());
+    const auto error = pages_lost(model_.stats(), model_.read_error());
     if (error) status = std::max(status, console_.fail(arguments_.file.string(), *error));
     if (trace_ && status == kDone) status = trace_->finish(arguments_, model_, console_);
     if (arguments_.json) console_.note(json_report());
@@ -241,6 +241,7 @@ Result<OpenOptions> open_options(const QueryArguments& arguments) {
   options.wait_limit_ms = static_cast<unsigned>(arguments.wait_limit_ms);
   options.use_io_uring = !arguments.no_io_uring;
   options.max_probes = 1;
+  arguments.http_cache.apply_to(options);
   if (arguments.trace.empty()) return options;
   options.page_trace_capacity = kTraceWords;
   const auto budget = budget_with_trace(arguments.file, options);

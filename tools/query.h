@@ -9,6 +9,7 @@
 #include "planetree/types.h"
 #include "tools/answers/answer_writer.h"
 #include "tools/answers/triangle_rows.h"
+#include "tools/cli/open_model.h"
 #include "tools/cli/subcommand.h"
 #include "tools/points/column_names.h"
 #include "tools/points/row_shape.h"
@@ -40,6 +41,7 @@ struct QueryArguments {
   std::uint64_t threads = 0;  ///< batch threads; 0: one for each processor
   std::uint64_t wait_limit_ms = OpenOptions().wait_limit_ms;
   bool no_io_uring = false;
+  HttpCacheChoice http_cache;  ///< for a URL
   AnswerForm form;
   bool json = false;
   bool quiet = false;

@@ -47,8 +47,8 @@ AnswerFormat format_of(const std::filesystem::path& output) {
 
 void add_files(SubcommandOptions& subcommand, Options& options) {
   QueryArguments& arguments = options.arguments;
-  subcommand.require(
-      subcommand.path("file", "FILE", arguments.file, "File that planetree build wrote"));
+  subcommand.require(subcommand.path("file", "FILE", arguments.file,
+                                     "File that planetree build wrote, or a URL of one"));
   subcommand.default_text(
       subcommand.path(
           "points", "POINTS", arguments.points,
@@ -186,6 +186,7 @@ void add_limits(SubcommandOptions& subcommand, Options& options) {
       subcommand.bytes("--memory", arguments.memory_bytes, "Maximum memory for the model"), "256M");
   add_policy(subcommand, arguments.policy);
   add_open_layers(subcommand, arguments.layers);
+  add_http_cache(subcommand, arguments.http_cache);
   subcommand.default_text(
       subcommand.count(
           "--threads", arguments.threads, OpenOptions::kMaxBatchThreads,

@@ -28,8 +28,8 @@ struct TouchOptions {
 
 void add_session(SubcommandOptions& subcommand, TouchOptions& options) {
   TouchArguments& arguments = options.arguments;
-  options.model_option =
-      subcommand.path("file", "FILE", options.model, "File that planetree build wrote");
+  options.model_option = subcommand.path("file", "FILE", options.model,
+                                         "File that planetree build wrote, or a URL of one");
   options.scene_option = subcommand.path(
       "--scene", "FILE.json", options.scene,
       "Touch the models of this scene file (format-spec/scene-v1/spec.md) instead of a FILE. "
@@ -75,6 +75,7 @@ void add_records(SubcommandOptions& subcommand, TouchOptions& options) {
   TouchArguments& arguments = options.arguments;
   add_policy(subcommand, arguments.policy);
   options.layers = add_open_layers(subcommand, arguments.layers);
+  add_http_cache(subcommand, arguments.http_cache);
   subcommand.path("--ticks", "OUT.csv", arguments.ticks,
                   "Write all ticks here: tick,x,y,z,latency_us,query_us,width,side,status and, of "
                   "a scene, the position of the nearest instance in its file");

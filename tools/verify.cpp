@@ -54,7 +54,8 @@ std::string plain_report(const VerifyArguments& arguments, const CheckReport& re
 }  // namespace
 
 int run_verify(const VerifyArguments& arguments, Console& console) {
-  auto parts = FileParts::open(arguments.file);
+  auto parts = FileParts::open(arguments.file, storage::FileCalls::real(),
+                               {arguments.http_cache.directory, arguments.http_cache.bytes, {}});
   if (!parts) return console.fail(arguments.file.string(), parts.error());
   Progress progress(arguments.quiet, arguments.json);
   progress.start("verifying", parts->page_count(), "pages");
@@ -69,10 +70,12 @@ int run_verify(const VerifyArguments& arguments, Console& console) {
 void add_verify(CLI::App& app, Console& console, std::function<int()>& action) {
   const auto options = std::make_shared<VerifyArguments>();
   SubcommandOptions subcommand(app, "verify", "Check a .ptree file against its format");
-  subcommand.require(subcommand.path("file", "FILE", options->file, "File to verify"));
+  subcommand.require(
+      subcommand.path("file", "FILE", options->file, "File to verify, or a URL of one"));
   subcommand.flag(
       "--full", options->full,
       "Also check every triangle and vertex, the bounds, the mask and the height fields");
+  add_http_cache(subcommand, options->http_cache);
   subcommand.flag("--json", options->json,
                   "Report as one JSON object; progress as JSON lines, on standard error");
   subcommand.flag("--quiet", options->quiet, "Show no progress");

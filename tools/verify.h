@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "tools/cli/open_model.h"
 #include "tools/cli/subcommand.h"
 
 namespace CLI {
@@ -15,6 +16,7 @@ namespace planetree::tools {
 struct VerifyArguments {
   std::filesystem::path file;
   bool full = false;
+  HttpCacheChoice http_cache;  ///< for a URL
   bool json = false;
   bool quiet = false;
 };

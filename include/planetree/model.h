@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "planetree/attributes.h"
@@ -100,6 +101,15 @@ struct OpenOptions {
   /// refuses is no error: queries then poll.
   bool use_io_uring = true;
 
+  /// Directory in which a model that is opened by URL keeps what it has read, for later processes.
+  /// It is created if need be. Empty: nothing is kept. Any number of models and processes may use
+  /// one. A file is there that never exceeds `http_cache_bytes`; it may be removed at any time. For
+  /// models of files it does nothing.
+  std::filesystem::path http_cache{};
+  /// Maximum bytes of the file in `http_cache`, at least 1.1 MB (4 clusters of 256 KiB). A model
+  /// that is opened with a lower limit shortens the file.
+  std::uint64_t http_cache_bytes = std::uint64_t{1} << 30;
+
   static constexpr unsigned kMaxProbes = 1024;       ///< limit of `max_probes`
   static constexpr unsigned kMaxFetchThreads = 64;   ///< limit of `fetch_threads`
   static constexpr unsigned kMaxBatchThreads = 256;  ///< limit of `batch_threads`
@@ -121,13 +131,18 @@ class PLANETREE_API Model {
   /// threads. If the side layer is opened, also reads the upper cells of the mask into the side
   /// grid. If the field layer is opened, also reads the field.
   ///
-  /// path     a regular file.
+  /// path     a regular file, or a URL that starts with `http://` or `https://`. A server must
+  /// serve
+  ///          ranges of bytes. Its model answers as one of the file does, bit for bit. Of a large
+  ///          one, neither the field nor the side grid is read at open. The budget then includes
+  ///          16.5 MiB for clusters and connections.
   /// errors   kUnsupported: compiler options or the processor change floating-point results.
   ///          kBadArgument: an option is out of range. Both are found before the file is opened.
-  ///          kNotFound, kPermission, kReadFailed: the file cannot be read. kNotPlanetree,
-  ///          kUnsupported, kTruncated, kDamaged: the content of the file is refused. kNoMemory:
-  ///          the budget is too small (the text gives the minimum), memory cannot be locked, or the
-  ///          system refuses memory or threads. A system without io_uring is no error.
+  ///          kNotFound, kPermission, kReadFailed: the file or the URL cannot be read.
+  ///          kNotPlanetree, kUnsupported, kTruncated, kDamaged: the content of the file is
+  ///          refused. kNoMemory: the budget is too small (the text gives the minimum), memory
+  ///          cannot be locked, or the system refuses memory or threads. A system without io_uring
+  ///          is no error.
   /// threads  any, but not real-time threads: allocates memory, makes system calls and waits for
   ///          the disk.
   [[nodiscard]] static Result<Model> open(const std::filesystem::path& path,
@@ -151,6 +166,13 @@ class PLANETREE_API Model {
   /// threads  any, but not real-time threads: it takes no mutex, but it reads memory outside of
   ///          the arena, which the system may have swapped out.
   Stats stats() const noexcept;
+  /// Returns the last error of reading a page, with cause, remedy and the URL if there is one.
+  /// Empty if every page could be read so far. Answers that lack the page are Status::kDegraded. A
+  /// page of a file is not read again. A page that a server did not give is read again when a query
+  /// needs it, unless the server has another file by now.
+  ///
+  /// threads  any, but not real-time threads: takes a mutex.
+  std::optional<Error> read_error() const noexcept;
   /// Moves records from the page traces of all probes and threads to `accesses`, in the order of
   /// their times. If OpenOptions::page_trace_capacity is above 0, every query records its page
   /// lookups, and every thread the pages that it reads and evicts. The records of Model::open come

@@ -85,8 +85,10 @@ struct Stats {
   std::uint64_t pages_read = 0;         ///< pages read from the file and decoded
   std::uint64_t pages_evicted = 0;      ///< pages evicted to make room for others
   std::uint64_t quarantined_pages = 0;  ///< pages found unreadable or damaged; never read again
-  std::uint64_t waits_given_up = 0;     ///< waits that OpenOptions::wait_limit_ms ended
-  std::uint64_t degraded_answers = 0;   ///< answers of Status::kDegraded
+  /// Waits that OpenOptions::wait_limit_ms ended, and reads that the server of a URL did not
+  /// answer.
+  std::uint64_t waits_given_up = 0;
+  std::uint64_t degraded_answers = 0;  ///< answers of Status::kDegraded
   /// Of these, answers of queries that lacked no page: QueryOptions::max_work was spent, a wall of
   /// the region is nearer than the surface, the winding number is 1/2 to the last bits, or the
   /// model has no side layer.
@@ -98,13 +100,16 @@ struct Stats {
   std::uint64_t fetch_requests_served = 0;  ///< fetch requests that a fetch thread has served
   std::uint64_t pages_prefetched = 0;       ///< pages read because of Probe::motion
   std::uint64_t pages_read_ahead = 0;       ///< pages read because of OpenOptions::read_ahead
-  std::uint64_t page_trace_dropped = 0;     ///< records lost because a page trace was full
-  std::uint32_t layers = kDistanceLayer;    ///< layers that are open; see OpenOptions::layers
-  std::uint64_t frames = 0;                 ///< frames: maximum number of pages in memory
-  std::uint64_t arena_bytes = 0;            ///< memory of the frames, not of the whole arena
-  std::uint64_t table_bytes = 0;            ///< all other memory: tables, query arena, buffers
-  std::uint64_t budget_bytes = 0;           ///< memory_budget_bytes; at least the sum of both above
-  std::uint64_t locked_bytes = 0;           ///< locked memory: frames, cache tables, query arena
+  /// Of a model opened by URL: requests sent, repeated ones included; bytes that came; bytes that
+  /// OpenOptions::http_cache had instead. 0 for a file.
+  std::uint64_t http_requests = 0, http_bytes = 0, http_cached_bytes = 0;
+  std::uint64_t page_trace_dropped = 0;   ///< records lost because a page trace was full
+  std::uint32_t layers = kDistanceLayer;  ///< layers that are open; see OpenOptions::layers
+  std::uint64_t frames = 0;               ///< frames: maximum number of pages in memory
+  std::uint64_t arena_bytes = 0;          ///< memory of the frames, not of the whole arena
+  std::uint64_t table_bytes = 0;          ///< all other memory: tables, query arena, buffers
+  std::uint64_t budget_bytes = 0;         ///< memory_budget_bytes; at least the sum of both above
+  std::uint64_t locked_bytes = 0;         ///< locked memory: frames, cache tables, query arena
   /// Whether one of the two headers of the file is damaged. The model uses the other one. Restore
   /// the file from a copy or build it again.
   bool header_copy_damaged = false;

@@ -7,6 +7,7 @@
 #include "query/file/model_info.h"
 #include "query/file/scene_frames.h"
 #include "query/file/tree_header.h"
+#include "storage/http/open_source.h"
 
 namespace planetree::query {
 namespace {
@@ -14,8 +15,11 @@ namespace {
 // Maximum size of a side grid. The grid of a large model alone has six times as much.
 constexpr std::uint64_t kMaxGridBytes = std::uint64_t{1} << 18;
 
-TableLimits table_limits(const SceneModel::Choices& choices) {
-  return {kMaxGridBytes, choices.max_field_bytes};
+TableLimits table_limits(const storage::PageFile& file, const SceneModel::Choices& choices) {
+  TableLimits limits = file.source().is_remote() ? remote_limits(file.header()) : TableLimits{};
+  limits.grid_bytes = kMaxGridBytes;
+  limits.field_bytes = choices.max_field_bytes;
+  return limits;
 }
 
 std::uint64_t thread_bytes(const SceneModel::Choices& choices) {
@@ -34,7 +38,9 @@ Error no_memory() {
 Result<std::unique_ptr<SceneModel>> SceneModel::open(const std::filesystem::path& path,
                                                      const Choices& choices,
                                                      storage::FileCalls& calls) {
-  auto file = storage::PageFile::open(path, calls);
+  auto source = storage::open_source(path, {}, calls);
+  if (!source) return source.error();
+  auto file = storage::PageFile::open(std::move(*source));
   if (!file) return file.error();
   const storage::FileHeader& header = file->header();
   if (const auto checked = check_tree_header(header); !checked) return checked.error();
@@ -45,8 +51,9 @@ Result<std::unique_ptr<SceneModel>> SceneModel::open(const std::filesystem::path
                       "the file has pages of %u bytes, the scene frames of %u: create the scene "
                       "with a max_page_bytes of at least %u",
                       needed, most, needed);
-  const OpenLayers opened =
-      OpenLayers::of(header.model, choices.layers & ~std::uint32_t{kAttributeLayer});
+  const std::uint32_t wanted = choices.layers & ~std::uint32_t{kAttributeLayer};
+  const OpenLayers opened = OpenLayers::of(
+      header.model, file->source().is_remote() ? remote_layers(header, wanted) : wanted);
   const ModelInfo info = describe(*file);
   std::unique_ptr<SceneModel> model(new (std::nothrow) SceneModel(*std::move(file), opened, info));
   if (!model) return no_memory();
@@ -54,19 +61,19 @@ Result<std::unique_ptr<SceneModel>> SceneModel::open(const std::filesystem::path
 }
 
 QueryArena::Needs SceneModel::needs(const Choices& choices) const noexcept {
-  return arena_needs(file.header(), opened, choices.readers, table_limits(choices));
+  return arena_needs(file.header(), opened, choices.readers, table_limits(file, choices));
 }
 
 ModelMemory SceneModel::memory(const Choices& choices) const noexcept {
   const QueryArena::Needs needs = this->needs(choices);
   ModelMemory memory;
-  memory.directory = file.directory_memory_bytes();
+  memory.directory = file.memory_bytes();
   memory.side_grid = needs.side_grid_bytes;
   memory.field = needs.field_bytes;
   memory.probes = choices.readers * (needs.probe_bytes + sizeof(FetchRequests) +
                                      sizeof(std::unique_ptr<ProbeState>)) +
                   thread_bytes(choices);
-  memory.total = file.directory_memory_bytes() + QueryArena::bytes(needs) + sizeof(SceneModel) +
+  memory.total = file.memory_bytes() + QueryArena::bytes(needs) + sizeof(SceneModel) +
                  choices.readers * sizeof(std::unique_ptr<ProbeState>) + thread_bytes(choices);
   memory.other = memory.total - memory.directory - memory.side_grid - memory.field - memory.probes;
   return memory;
@@ -92,7 +99,7 @@ Result<void> SceneModel::join(ScenePager& pager, cache::Reader& loader, const Ch
     serving->contacts = choices.contacts;
     serving->contacts_reader = choices.fetch_threads + 1;
     cache::Reader window = cache.window(loader.index(), *first);
-    if (const auto loaded = load_model(*serving, file, opened, window, table_limits(choices));
+    if (const auto loaded = load_model(*serving, file, opened, window, table_limits(file, choices));
         !loaded)
       return loaded.error();
     probes.resize(choices.readers);

@@ -64,7 +64,7 @@ class PageAccessor {
     }
     if (may_wait_ && !(stop_ && stop_->load(std::memory_order_relaxed))) return fetch(number);
     if (trace_) trace_->missed(number);
-    missed_ = true;
+    note_missed(number);
     return nullptr;
   }
 
@@ -73,6 +73,10 @@ class PageAccessor {
 
   /// Whether the query went on without a page: it may not wait, or its wait was given up.
   bool missed() const noexcept { return missed_; }
+
+  /// The first page that the query went on without; kNoPage if there is none.
+  static constexpr std::uint32_t kNoPage = ~std::uint32_t{0};
+  std::uint32_t first_missed() const noexcept { return first_missed_; }
 
   /// Returns the page's frame if it is resident, else null. Reads nothing and records nothing.
   const std::byte* peek(std::uint32_t number) noexcept {
@@ -88,6 +92,10 @@ class PageAccessor {
 
   void begin_section() noexcept {
     if (!reader_.inside()) reader_.enter();
+  }
+  void note_missed(std::uint32_t number) noexcept {
+    if (!missed_) first_missed_ = number;
+    missed_ = true;
   }
   // Call it before a section ends: a traversal may hold pointers to frames.
   void release_frames() noexcept {
@@ -105,7 +113,7 @@ class PageAccessor {
     if (trace_) trace_->fetched(number);
     const cache::FetchResult fetched = reader_.fetch(number, terms_);
     if (fetched.given_up) {
-      missed_ = true;
+      note_missed(number);
       may_wait_ = false;
     }
     if (fetched.frame) ++fetched_;
@@ -156,6 +164,7 @@ class PageAccessor {
   PageTrace* trace_ = nullptr;
   bool may_wait_;  // false for good after a wait was given up
   bool missed_ = false;
+  std::uint32_t first_missed_ = kNoPage;
   std::uint32_t lookups_ = 0;
   std::uint32_t fetched_ = 0;
 };

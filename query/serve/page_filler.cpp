@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <new>
 #include <span>
+#include <string_view>
 
 #include "query/file/page_decoding.h"
 
@@ -11,6 +12,15 @@ namespace {
 
 bool stored_fits_frame(const PageFiller::Limits& limits) {
   return limits.max_stored_bytes <= limits.frame_bytes;
+}
+
+// The error with the name of its source before the text, if it has one.
+Error named(const Error& error, std::string_view name) noexcept {
+  if (name.empty()) return error;
+  constexpr int kMaxNameBytes = 72;  // leaves room for the text
+  return make_error(error.code, error.page, error.offset, "%.*s: %s",
+                    std::min(static_cast<int>(name.size()), kMaxNameBytes), name.data(),
+                    error.text);
 }
 
 }  // namespace
@@ -52,6 +62,17 @@ Result<void> PageFiller::claim(const Limits& limits) noexcept {
 
 Result<cache::FillResult> PageFiller::fill(const storage::PageFile& file, std::uint32_t page,
                                            const cache::FillRequest& request) noexcept {
+  auto filled = fill_frame(file, page, request);
+  if (filled) return filled;
+  const Error error = named(filled.error(), file.source().name());
+  read_error_.set(error);
+  if (file.source().is_remote() && error.code != ErrorCode::kDamaged)
+    return cache::FillResult::kLate;
+  return error;
+}
+
+Result<cache::FillResult> PageFiller::fill_frame(const storage::PageFile& file, std::uint32_t page,
+                                                 const cache::FillRequest& request) noexcept {
   const storage::FileHeader& header = file.header();
   const auto found = entry_of(file, page, request.may_block);
   if (!found) return found.error();

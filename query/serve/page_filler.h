@@ -9,6 +9,7 @@
 
 #include "cache/page_cache.h"
 #include "planetree/error.h"
+#include "query/serve/read_error.h"
 #include "storage/file/page_file.h"
 #include "storage/system/read_wait.h"
 
@@ -36,10 +37,17 @@ class PageFiller {
   ///
   /// file     of pages within the limits
   /// page     its number in the file; that of the request is the cache's
+  ///
+  /// return   kLate: the server of a remote file did not give the page, although it was asked again
   Result<cache::FillResult> fill(const storage::PageFile& file, std::uint32_t page,
                                  const cache::FillRequest& request) noexcept;
 
+  /// The last error of fill(), with the URL of a remote file.
+  std::optional<Error> read_error() const noexcept { return read_error_.get(); }
+
  private:
+  Result<cache::FillResult> fill_frame(const storage::PageFile& file, std::uint32_t page,
+                                       const cache::FillRequest& request) noexcept;
   // Maximum number of fetchers that have a ReadWait. Each takes a file descriptor while the model
   // is open. The first fetchers that need one get one; the others poll.
   static constexpr std::uint64_t kMaxReadWaits = 16;
@@ -67,6 +75,7 @@ class PageFiller {
   std::uint64_t max_read_waits_ = kMaxReadWaits;
   std::atomic<std::uint64_t> granted_waits_{0};
   std::chrono::milliseconds max_wait_{};
+  ReadError read_error_;
 };
 
 }  // namespace planetree::query

@@ -11,7 +11,8 @@ Result<std::unique_ptr<Pager>> Pager::create(storage::PageFile file, const Limit
   if (const auto checked = check_tree_header(file.header()); !checked) return checked.error();
   std::unique_ptr<Pager> pager(new Pager(std::move(file), limits.opened));
   if (const auto claimed = pager->claim(limits); !claimed) return claimed.error();
-  if (const auto pinned = pager->cache_->pin(0); !pinned) return pinned.error();
+  if (const auto pinned = pager->cache_->pin(0); !pinned)
+    return pager->read_error().value_or(pinned.error());
   return pager;
 }
 
@@ -26,7 +27,7 @@ cache::CacheLimits Pager::cache_limits(const storage::PageFile& file,
   cache_limits.policy = limits.policy;
   cache_limits.max_readers = limits.readers();
   cache_limits.own_readers = limits.thread_probes;
-  cache_limits.reserved_bytes = file.directory_memory_bytes() +
+  cache_limits.reserved_bytes = file.memory_bytes() +
                                 PageFiller::bytes(filler_limits(header, limits)) + sizeof(Pager) +
                                 QueryArena::bytes(limits.arena) +
                                 limits.probe_bytes * limits.max_probes + limits.thread_bytes;

@@ -54,6 +54,8 @@ class Pager {
   cache::PageCache& cache() const noexcept { return *cache_; }
   /// Memory of the states of model and probes, claimed and locked with the cache's.
   QueryArena& query_arena() noexcept { return *query_arena_; }
+  /// The last error of reading a page, if there was one.
+  std::optional<Error> read_error() const noexcept { return filler_.read_error(); }
   std::uint64_t locked_bytes() const noexcept {
     return cache_->stats().locked_bytes + (query_arena_is_locked_ ? query_arena_->bytes() : 0);
   }

@@ -11,32 +11,36 @@
 #include "storage/file/directory_check.h"
 #include "storage/file/directory_shape.h"
 #include "storage/file/file_layout.h"
-#include "storage/system/file_handle.h"
+#include "storage/system/byte_source.h"
 
 namespace planetree::storage {
 
 /// The directory of an open file. Each block is checked when it is read.
 ///
 /// Up to kMaxBlocks blocks are kept in memory. A directory that has no more is read whole when the
-/// file is opened. Of a greater one, the root is read then and other blocks when they are needed;
-/// those that were used last stay.
+/// file is opened; one of another machine only if it ends within kMaxRemoteBytes of the file. Of a
+/// greater one, the root is read then and other blocks when they are needed; those that were used
+/// last stay.
 ///
 /// threads  any number at once; they wait for each other where blocks are read when needed
 class Directory {
  public:
   static constexpr std::uint64_t kMaxBlocks = 256;  ///< hold the entries of 130,560 pages, in 3 MiB
 
+  /// Bytes from the start of a remote file on that are read when it is opened.
+  static constexpr std::uint64_t kMaxRemoteBytes = std::uint64_t{1} << 19;
+
   /// Allocates no more memory than the directory is long.
   ///
   /// header  must have passed check_header()
   /// errors  kNoMemory, kReadFailed, kDamaged
-  static Result<Directory> open(const FileHandle& file, const FileHeader& header) noexcept;
+  static Result<Directory> open(const ByteSource& source, const FileHeader& header) noexcept;
 
   /// Returns where a page is.
   ///
   /// page    below header.page_count
   /// errors  kReadFailed, kTruncated, kDamaged
-  Result<PageEntry> entry(const FileHandle& file, const FileHeader& header,
+  Result<PageEntry> entry(const ByteSource& source, const FileHeader& header,
                           std::uint32_t page) const noexcept;
   /// Returns the same if that reads nothing from the file.
   std::optional<PageEntry> kept_entry(const FileHeader& header, std::uint32_t page) const noexcept;
@@ -60,18 +64,20 @@ class Directory {
   static constexpr std::uint64_t kNothing = ~std::uint64_t{0};
 
   explicit Directory(std::uint32_t page_count) noexcept : shape_(page_count) {}
-  Result<void> read_all(const FileHandle& file, const FileHeader& header) noexcept;
-  bool keeps_all() const noexcept { return slot_count_ == shape_.blocks(); }
-  Result<PageEntry> find(const FileHandle* file, const FileHeader& header,
+  Result<void> read_all(const ByteSource& source, const FileHeader& header) noexcept;
+  bool has_slot_for_all() const noexcept { return slot_count_ == shape_.blocks(); }
+  bool reads_all_at_open(const ByteSource& source, const FileHeader& header) const noexcept;
+  Result<PageEntry> find(const ByteSource* source, const FileHeader& header,
                          std::uint32_t page) const noexcept;
-  Result<std::span<const std::byte>> block(const FileHandle* file, const FileHeader& header,
+  Result<std::span<const std::byte>> block(const ByteSource* source, const FileHeader& header,
                                            const DirectoryPlace& place) const noexcept;
-  Result<void> read(const FileHandle& file, const FileHeader& header, const DirectoryPlace& place,
+  Result<void> read(const ByteSource& source, const FileHeader& header, const DirectoryPlace& place,
                     std::span<std::byte> out) const noexcept;
   std::uint64_t slot_of(std::uint64_t number) const noexcept;
 
   DirectoryShape shape_;
   std::uint64_t slot_count_ = 0;
+  bool is_complete_ = false;  // all blocks are in memory for good
   std::unique_ptr<Kept> kept_;
 };
 

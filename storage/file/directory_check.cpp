@@ -42,6 +42,11 @@ class BlockRules {
            page == header_.first_attribute_page() || page == header_.first_mask_page();
   }
 
+  // Mask pages have no ordinals, so that their octcodes ascend strictly.
+  bool follows(std::uint64_t before, std::uint64_t octcode, std::uint32_t page) const noexcept {
+    return page > header_.first_mask_page() ? before < octcode : before <= octcode;
+  }
+
   const char* fault_of(const DirectoryPage& entry) const noexcept {
     if (entry.raw_bytes > header_.max_raw_bytes)
       return "the page's raw length is above the file's largest";
@@ -61,7 +66,7 @@ class BlockRules {
       const auto entry = directory_entry<DirectoryPage>(bytes_, i);
       if (const char* cause = fault_of(entry)) return fault_of_page(page, cause);
       if (i == 0 ? place_.level > 0 && entry.octcode != octcode
-                 : entry.octcode < octcode && !starts_section(page))
+                 : !follows(octcode, entry.octcode, page) && !starts_section(page))
         return fault_of_page(page, "the page's octcode does not follow the one before");
       octcode = entry.octcode;
       offset += entry.stored_bytes;

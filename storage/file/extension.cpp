@@ -28,6 +28,7 @@ const char* fault_of_record(const ExtensionRecord& record) noexcept {
     return "the name of an extension has other bytes than letters, digits, '.', '-' and '_'";
   if (record.required > 1 || !all_zero(record.reserved))
     return "the reserved bytes of an extension are not zero";
+  if (record.required == 1 && name == kMetadataName) return "the metadata are marked as required";
   return nullptr;
 }
 
@@ -80,7 +81,7 @@ Result<void> check_extensions(const FileHeader& header,
   if (offset != end)
     return bad_record(0, "the pages and extensions do not end where the header's copy starts");
   for (const ExtensionRecord& record : records)
-    if (record.required == 1 && name_of(record) != kMetadataName) return unknown_extension(record);
+    if (record.required == 1) return unknown_extension(record);
   return {};
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <iterator>
@@ -17,6 +18,48 @@ constexpr double kMaxStrayEdge = 0x1p60;
 constexpr std::uint64_t kMaxShortIndices = std::uint64_t{1} << 32;
 constexpr double kMaxCapArea = 0x1p1000;
 constexpr std::uint64_t kMaxWinding = std::uint64_t{1} << 62;
+constexpr std::uint64_t kMaxBlockTriangles = 16;
+// Limits of coordinates in the model frame, the second of those in the core.
+constexpr double kMaxCoordinate = 0x1p112, kMaxCoreCoordinate = 0x1.fffffffffffffp54;
+
+// Whether all bytes are 0; those of -0 are not.
+bool is_zero(double value) noexcept { return std::bit_cast<std::uint64_t>(value) == 0; }
+
+// A tree has nodes if and only if its triangles are more than a block holds.
+bool are_counts_of_tree(std::uint64_t triangles, std::uint64_t nodes,
+                        std::uint64_t blocks) noexcept {
+  return (nodes > 0) == (triangles > kMaxBlockTriangles) && (blocks > 0) == (triangles > 0);
+}
+
+Result<void> check_counts(const ModelRecord& model) noexcept {
+  if (model.triangle_count == 0) {
+    return bad_model(offsetof(ModelRecord, triangle_count), "there is no triangle");
+  }
+  if (!are_counts_of_tree(model.triangle_count, model.node_count, model.block_count)) {
+    return bad_model(offsetof(ModelRecord, node_count),
+                     "the counts of nodes and blocks are not those of so many triangles");
+  }
+  if (model.skipped_count > kNoTriangle - model.usable_triangles()) {
+    return bad_model(offsetof(ModelRecord, skipped_count), "the counts of triangles overflow");
+  }
+  const bool names_one = model.first_skipped != kNoTriangle;
+  if (names_one != (model.skipped_count > 0) ||
+      (names_one && model.first_skipped >= model.index_count())) {
+    return bad_model(offsetof(ModelRecord, first_skipped),
+                     "the index of the first skipped triangle is not one");
+  }
+  if (model.sample_triangle >= model.index_count()) {
+    return bad_model(offsetof(ModelRecord, sample_triangle),
+                     "the sample triangle's index is out of range");
+  }
+  return {};
+}
+
+bool are_within(const ModelRecord& model, std::span<const double> values, double limit) noexcept {
+  return std::all_of(values.begin(), values.end(), [&](double value) {
+    return std::ldexp(std::fabs(value), model.scale_exponent) <= limit;
+  });
+}
 
 Result<void> check_unbalanced_edges(const ModelRecord& model) noexcept {
   constexpr UnbalancedEdge kNothing{};
@@ -29,6 +72,10 @@ Result<void> check_unbalanced_edges(const ModelRecord& model) noexcept {
     }
     if (!all_finite(edge.from) || !all_finite(edge.to) || (listed && edge.along == edge.against)) {
       return bad_model(offsetof(ModelRecord, unbalanced_edge), "a listed edge is not unbalanced");
+    }
+    if (edge.triangle >= model.index_count()) {
+      return bad_model(offsetof(ModelRecord, unbalanced_edge),
+                       "the index of a triangle with an unbalanced edge is out of range");
     }
   }
   return {};
@@ -53,11 +100,17 @@ Result<void> check_core(const ModelRecord& model) noexcept {
   if (!is_core(model)) {
     return bad_model(offsetof(ModelRecord, core_lower), "the core is not one of the model");
   }
+  if (!are_within(model, model.box_lower, kMaxCoordinate) ||
+      !are_within(model, model.box_upper, kMaxCoordinate) ||
+      !are_within(model, model.core_lower, kMaxCoreCoordinate) ||
+      !are_within(model, model.core_upper, kMaxCoreCoordinate)) {
+    return bad_model(offsetof(ModelRecord, box_lower), "the model's coordinates are out of range");
+  }
   if (model.stray_count >= model.usable_triangles() && model.stray_count > 0) {
     return bad_model(offsetof(ModelRecord, stray_count), "all triangles are strays");
   }
   if (!(model.stray_edge >= 0 && model.stray_edge <= kMaxStrayEdge) ||
-      (model.stray_count == 0 && model.stray_edge > 0)) {
+      (model.stray_count == 0 && !is_zero(model.stray_edge))) {
     return bad_model(offsetof(ModelRecord, stray_edge), "the edge of strays is out of range");
   }
   return {};
@@ -152,8 +205,7 @@ Result<void> check_mask(const ModelRecord& model) noexcept {
 Result<void> check_caps(const ModelRecord& model) noexcept {
   const bool has_caps = model.cap_count > 0;
   const bool needs_caps = model.unbalanced_edge_count > 0 && model.has_side_layer();
-  if (has_caps != needs_caps || has_caps != (model.cap_page_count > 0) ||
-      has_caps != (model.cap_block_count > 0) || (!has_caps && model.cap_node_count > 0)) {
+  if (has_caps != needs_caps || has_caps != (model.cap_page_count > 0)) {
     return bad_model(offsetof(ModelRecord, cap_count),
                      "the caps are not those of the unbalanced edges");
   }
@@ -161,8 +213,12 @@ Result<void> check_caps(const ModelRecord& model) noexcept {
     return bad_model(offsetof(ModelRecord, cap_count),
                      "there are more caps than indices of 32 bits can count");
   }
+  if (!are_counts_of_tree(model.cap_count, model.cap_node_count, model.cap_block_count)) {
+    return bad_model(offsetof(ModelRecord, cap_node_count),
+                     "the caps are not those of the unbalanced edges by their nodes and blocks");
+  }
   if (!(model.cap_area >= 0 && model.cap_area <= kMaxCapArea) ||
-      (!has_caps && model.cap_area > 0)) {
+      (!has_caps && !is_zero(model.cap_area))) {
     return bad_model(offsetof(ModelRecord, cap_area), "the area of the caps is out of range");
   }
   if (model.cap_height > kMaxHeight || (!has_caps && model.cap_height > 0)) {
@@ -192,7 +248,7 @@ Result<void> check_field(const ModelRecord& model) noexcept {
   const bool is_none =
       std::memcmp(model.field_lower, kNothing.field_lower, sizeof model.field_lower) == 0 &&
       std::memcmp(model.field_size, kNothing.field_size, sizeof model.field_size) == 0 &&
-      model.field_step == 0 && model.field_quantum == 0;
+      is_zero(model.field_step) && is_zero(model.field_quantum);
   if (model.field_page_count > 0 ? !is_field(model) : !is_none) {
     return bad_model(offsetof(ModelRecord, field_lower), "the field's grid is out of range");
   }
@@ -220,6 +276,7 @@ Result<void> check_attributes(const ModelRecord& model) noexcept {
 }  // namespace
 
 Result<void> check_model(const ModelRecord& model) noexcept {
+  if (const Result<void> checked = check_counts(model); !checked) return checked;
   if (!all_finite(model.box_lower) || !all_finite(model.box_upper)) {
     return bad_model(offsetof(ModelRecord, box_lower), "the model's box is not finite");
   }

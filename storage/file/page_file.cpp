@@ -1,10 +1,6 @@
 #include "storage/file/page_file.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cinttypes>
 #include <new>
 #include <utility>
@@ -14,24 +10,9 @@
 #include "storage/file/header_check.h"
 #include "storage/file/header_choice.h"
 #include "storage/file/page_codec.h"
-#include "storage/system/file_error.h"
-#include "storage/system/mapping.h"
 
 namespace planetree::storage {
 namespace {
-
-Result<std::uint64_t> length_of(const FileHandle& file) noexcept {
-  struct stat status;
-  if (file.calls().fstat(file.descriptor(), &status) != 0) {
-    return file_error(errno, FileAction::kRead, "examine the file");
-  }
-  if (!S_ISREG(status.st_mode)) {
-    return make_error(ErrorCode::kNotPlanetree, Error::kNowhere, Error::kNowhere,
-                      "this is not a .ptree file but a %s; name a regular file",
-                      S_ISDIR(status.st_mode) ? "directory" : "device, pipe or socket");
-  }
-  return static_cast<std::uint64_t>(status.st_size);
-}
 
 Error located(Error error, std::uint32_t page, std::uint64_t offset) noexcept {
   error.page = page;
@@ -56,21 +37,22 @@ Result<void> unpack(std::uint32_t page, const PageEntry& entry, std::span<const 
 }  // namespace
 
 Result<PageFile> PageFile::open(const std::filesystem::path& path, FileCalls& calls) {
+  auto source = open_file_source(path.c_str(), calls);
+  if (!source) return source.error();
+  return open(std::move(*source));
+}
+
+Result<PageFile> PageFile::open(std::unique_ptr<ByteSource> source) {
   PageFile opened;
-  // O_NONBLOCK: opening a pipe without a writer must not block.
-  opened.file_ = FileHandle::open(calls, AT_FDCWD, path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY);
-  if (!opened.file_.is_open()) return file_error(errno, FileAction::kRead, "open the file");
-  const Result<std::uint64_t> actual_bytes = length_of(opened.file_);
-  if (!actual_bytes) return actual_bytes.error();
-  if (const Result<void> loaded = opened.load_header(*actual_bytes); !loaded) {
-    return loaded.error();
-  }
+  opened.source_ = std::move(source);
+  if (const Result<void> loaded = opened.load_header(); !loaded) return loaded.error();
   if (const Result<void> loaded = opened.load_extensions(); !loaded) return loaded.error();
   if (const Result<void> loaded = opened.load_directory(); !loaded) return loaded.error();
   return opened;
 }
 
-Result<void> PageFile::load_header(std::uint64_t actual_bytes) noexcept {
+Result<void> PageFile::load_header() noexcept {
+  const std::uint64_t actual_bytes = source_->size_bytes();
   std::byte leading[kHeaderBytes];
   std::byte trailing[kHeaderBytes];
   const std::size_t leading_bytes =
@@ -78,8 +60,13 @@ Result<void> PageFile::load_header(std::uint64_t actual_bytes) noexcept {
   const std::size_t trailing_bytes = actual_bytes >= 2 * kHeaderBytes ? kHeaderBytes : 0;
   const std::span<std::byte> first = std::span(leading).first(leading_bytes);
   const std::span<std::byte> last = std::span(trailing).first(trailing_bytes);
-  if (const Result<void> read = copy_mapped(file_, 0, first); !read) return read;
-  if (const Result<void> read = copy_mapped(file_, actual_bytes - trailing_bytes, last); !read) {
+  if (const Result<void> read = source_->read_early(0, first); !read) return read;
+  // The copy of a remote file takes a request of its own. It counts as equal to a whole header.
+  const bool spares_copy =
+      source_->is_remote() && !last.empty() && choose_header(first, {}, actual_bytes);
+  if (spares_copy) {
+    std::copy(first.begin(), first.end(), last.begin());
+  } else if (const auto read = source_->read_early(actual_bytes - trailing_bytes, last); !read) {
     return read;
   }
   const Result<HeaderChoice> choice = choose_header(first, last, actual_bytes);
@@ -93,13 +80,19 @@ Result<void> PageFile::load_extensions() {
   extensions_.resize(header_.extension_count);
   const std::span<std::byte> bytes = std::as_writable_bytes(std::span(extensions_));
   if (!bytes.empty()) {
-    if (const Result<void> read = copy_mapped(file_, kHeaderBytes, bytes); !read) return read;
+    if (const Result<void> read = source_->read_early(kHeaderBytes, bytes); !read) return read;
   }
   return check_extensions(header_, extensions_);
 }
 
 Result<void> PageFile::load_directory() noexcept {
-  Result<Directory> opened = Directory::open(file_, header_);
+  // The directory, if it is read at once, and the root page behind it.
+  const std::uint64_t end = pages_start(header_) + header_.max_stored_bytes;
+  if (pages_start(header_) <= Directory::kMaxRemoteBytes) {
+    const ByteRange range{0, std::min(end, source_->size_bytes())};
+    source_->prefetch({&range, 1});
+  }
+  Result<Directory> opened = Directory::open(*source_, header_);
   if (!opened) return opened.error();
   directory_.emplace(*std::move(opened));
   return {};
@@ -115,7 +108,7 @@ Result<std::vector<std::byte>> PageFile::read_extension(const ExtensionRecord& r
                       record.bytes);
   }
   if (bytes.empty()) return bytes;
-  if (const Result<void> read = file_.read_at(record.offset, bytes); !read) return read.error();
+  if (const Result<void> read = source_->read_at(record.offset, bytes); !read) return read.error();
   if (hash64(bytes) != record.check) {
     return make_error(ErrorCode::kDamaged, Error::kNowhere, record.offset,
                       "the hash of an extension is wrong; restore the file from a copy or build it "
@@ -132,7 +125,7 @@ Result<void> PageFile::check_page(std::uint32_t page) const noexcept {
 
 Result<PageEntry> PageFile::entry(std::uint32_t page) const noexcept {
   if (const Result<void> checked = check_page(page); !checked) return checked.error();
-  return directory_->entry(file_, header_, page);
+  return directory_->entry(*source_, header_, page);
 }
 
 std::optional<PageEntry> PageFile::kept_entry(std::uint32_t page) const noexcept {
@@ -159,10 +152,30 @@ Result<void> PageFile::read_page(std::uint32_t page, std::span<std::byte> stored
   if (const auto checked = check_buffers(page, *entry, stored_scratch, raw_out); !checked)
     return checked;
   const std::span<std::byte> stored = stored_scratch.first(entry->stored_bytes);
-  if (const Result<void> read = file_.read_at(entry->offset, stored); !read) {
-    return located(read.error(), page, entry->offset);
+  const auto read_once = [&]() -> Result<void> {
+    if (const Result<void> read = source_->read_at(entry->offset, stored); !read)
+      return located(read.error(), page, entry->offset);
+    return unpack(page, *entry, stored, raw_out);
+  };
+  const Result<void> read = read_once();
+  // What a cache keeps, or a connection delivered, may be wrong where the file is not.
+  const bool is_wrong = !read && read.error().code == ErrorCode::kDamaged;
+  if (is_wrong && source_->forget({entry->offset, entry->stored_bytes})) return read_once();
+  return read;
+}
+
+void PageFile::prefetch(std::span<const std::uint32_t> pages) const noexcept {
+  constexpr std::size_t kMaxRanges = 64;
+  if (!source_->is_remote()) return;
+  ByteRange ranges[kMaxRanges];
+  while (!pages.empty()) {
+    const auto some = pages.first(std::min(pages.size(), kMaxRanges));
+    std::size_t count = 0;
+    for (const std::uint32_t page : some)
+      if (const auto found = entry(page)) ranges[count++] = {found->offset, found->stored_bytes};
+    source_->prefetch(std::span(ranges).first(count));
+    pages = pages.subspan(some.size());
   }
-  return unpack(page, *entry, stored, raw_out);
 }
 
 Result<bool> PageFile::try_read_page(std::uint32_t page, std::span<std::byte> stored_scratch,
@@ -174,11 +187,12 @@ Result<bool> PageFile::try_read_page(std::uint32_t page, std::span<std::byte> st
   if (const auto checked = check_buffers(page, *entry, stored_scratch, raw_out); !checked)
     return checked.error();
   const std::span<std::byte> stored = stored_scratch.first(entry->stored_bytes);
-  if (!file_.try_read(entry->offset, stored, terms)) return false;
-  if (const Result<void> unpacked = unpack(page, *entry, stored, raw_out); !unpacked) {
-    return unpacked.error();
-  }
-  return true;
+  if (!source_->try_read(entry->offset, stored, terms)) return false;
+  const Result<void> unpacked = unpack(page, *entry, stored, raw_out);
+  if (unpacked) return true;
+  // Where the source may have other bytes, read_page() asks for them.
+  if (source_->forget({entry->offset, entry->stored_bytes})) return false;
+  return unpacked.error();
 }
 
 }  // namespace planetree::storage

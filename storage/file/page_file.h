@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -10,8 +11,8 @@
 #include "planetree/error.h"
 #include "storage/file/directory.h"
 #include "storage/file/file_layout.h"
+#include "storage/system/byte_source.h"
 #include "storage/system/file_calls.h"
-#include "storage/system/file_handle.h"
 
 namespace planetree::storage {
 
@@ -33,6 +34,14 @@ class PageFile {
   ///         kTruncated, kDamaged.
   static Result<PageFile> open(const std::filesystem::path& path,
                                FileCalls& calls = FileCalls::real());
+  /// Opens a file whose bytes a source has. The trailing header of a remote one is read only if the
+  /// leading one is damaged.
+  ///
+  /// errors  those of reading the source; kNoMemory; kNotPlanetree, kUnsupported, kTruncated,
+  ///         kDamaged.
+  static Result<PageFile> open(std::unique_ptr<ByteSource> source);
+
+  const ByteSource& source() const noexcept { return *source_; }
 
   const FileHeader& header() const noexcept { return header_; }
   std::uint32_t page_count() const noexcept { return header_.page_count; }
@@ -48,6 +57,10 @@ class PageFile {
 
   /// Bytes of memory that the directory takes.
   std::uint64_t directory_memory_bytes() const noexcept { return directory_->memory_bytes(); }
+  /// Bytes of memory that the directory and the source take.
+  std::uint64_t memory_bytes() const noexcept {
+    return directory_memory_bytes() + source_->memory_bytes();
+  }
 
   /// Reads and verifies the bytes of an extension.
   ///
@@ -77,9 +90,13 @@ class PageFile {
                              std::span<std::byte> raw_out,
                              const ReadLimits& terms = {}) const noexcept;
 
+  /// Lets the source of a remote file get pages that are read soon, many at once. Does nothing for
+  /// a file of this machine, and for pages that do not exist.
+  void prefetch(std::span<const std::uint32_t> pages) const noexcept;
+
  private:
   PageFile() noexcept = default;
-  Result<void> load_header(std::uint64_t actual_bytes) noexcept;
+  Result<void> load_header() noexcept;
   Result<void> load_extensions();
   Result<void> load_directory() noexcept;
   Result<void> check_page(std::uint32_t page) const noexcept;
@@ -87,7 +104,7 @@ class PageFile {
                              std::span<std::byte> stored_scratch,
                              std::span<std::byte> raw_out) const noexcept;
 
-  FileHandle file_;
+  std::unique_ptr<ByteSource> source_;
   FileHeader header_{};
   std::vector<ExtensionRecord> extensions_;
   std::optional<Directory> directory_;

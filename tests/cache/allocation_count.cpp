@@ -19,10 +19,12 @@
 namespace {
 
 std::atomic<std::uint64_t> count{0};
+thread_local std::uint64_t thread_count = 0;
 
 #if PLANETREE_COUNTS_ALLOCATIONS
 void* allocate(std::size_t bytes, std::size_t alignment) noexcept {
   count.fetch_add(1, std::memory_order_relaxed);
+  ++thread_count;
   // aligned_alloc requires a multiple of the alignment, and not 0.
   const std::size_t rounded = (bytes / alignment + 1) * alignment;
   return std::aligned_alloc(alignment, rounded);
@@ -44,6 +46,8 @@ namespace planetree::cache {
 bool allocations_are_counted() noexcept { return PLANETREE_COUNTS_ALLOCATIONS != 0; }
 
 std::uint64_t allocation_count() noexcept { return count.load(std::memory_order_relaxed); }
+
+std::uint64_t thread_allocation_count() noexcept { return thread_count; }
 
 }  // namespace planetree::cache
 

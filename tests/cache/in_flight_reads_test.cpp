@@ -73,6 +73,7 @@ struct SlowPages {
   TaggedPages tags;
   std::set<std::uint32_t> slow;
   std::atomic<bool> released{false};
+  std::atomic<bool> is_late{false};  ///< slow pages do not come at all
   std::atomic<int> stalled{0};
   std::atomic<int> refused{0};
 
@@ -86,6 +87,7 @@ struct SlowPages {
       ++pages.stalled;
       while (!pages.released) std::this_thread::yield();
       --pages.stalled;
+      if (pages.is_late) return FillResult::kLate;
     }
     return TaggedPages::fill(&pages.tags, request);
   }
@@ -137,6 +139,39 @@ TEST_F(ConcurrentFetches, TwoFetchesOfOnePageReadItOnce) {
   second.join();
   EXPECT_EQ(right_, 2);
   EXPECT_EQ(pages_.tags.fill_calls(), 1u);
+}
+
+TEST_F(ConcurrentFetches, ALatePageIsGivenUpByAllAndComesLater) {
+  open(6);
+  pages_.slow = {7};
+  pages_.is_late = true;
+  std::thread first = start_stalled(7);
+  std::thread second = fetching(7);
+  std::thread third = fetching(7, kByHelpers);
+  pages_.released = true;
+  first.join();
+  second.join();
+  // A thread that does not read itself waits for a helper, whose read fails too.
+  Reader helper = *cache_->claim_reader();
+  while (given_up_ < 3) helper.help();
+  third.join();
+  EXPECT_EQ(right_, 0);
+  EXPECT_EQ(cache_->stats().quarantined, 0u);
+  EXPECT_GE(cache_->stats().given_up, 3u);
+  pages_.is_late = false;
+  fetching(7).join();
+  EXPECT_EQ(right_, 1);
+}
+
+TEST_F(ConcurrentFetches, ALatePageCannotBePinned) {
+  open(6);
+  pages_.slow = {7};
+  pages_.released = pages_.is_late = true;
+  const auto pinned = cache_->pin(7);
+  ASSERT_FALSE(pinned);
+  EXPECT_EQ(pinned.error().code, ErrorCode::kReadFailed);
+  pages_.is_late = false;
+  EXPECT_TRUE(cache_->pin(7));
 }
 
 TEST_F(ConcurrentFetches, OtherFetchesProceedWhileOneReadStalls) {

@@ -33,6 +33,7 @@ std::string open_with(const std::function<void(storage::FileHeader&)>& change) {
 
 std::string open_with_counts(std::uint64_t nodes, std::uint64_t blocks) {
   return open_with([=](storage::FileHeader& header) {
+    header.model.triangle_count = nodes > 0 ? 20 : 4;
     header.model.node_count = nodes;
     header.model.block_count = blocks;
   });

@@ -14,6 +14,7 @@ const std::vector<RestrictedHeader>& restricted_headers() {
       {"xxh",
        {"storage/file/checksum.cpp", "tests/golden/spec_reader.cpp",
         "tests/tools/trace_file/spec_trace_test.cpp"}},
+      {"curl", {"storage/http/range_client.cpp"}},
       {"zlib",
        {"octree/builder/mesh/stream/packing_decoders.cpp", "tests/fuzz/",
         "tests/octree/builder/mesh/"}},

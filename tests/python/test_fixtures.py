@@ -1,6 +1,6 @@
-"""The fixtures of format-spec/: engine and reader give the codes and answers that they state."""
+"""The fixtures of format-spec/: the engine, reader.py and checker.py give the codes and answers that
+they state, and the engine and checker.py say the same of changed fixtures."""
 
-import importlib.util
 import json
 import os
 import pathlib
@@ -23,15 +23,11 @@ SIDES = {"inside": 1, "on the surface": 1, "outside": 0, "unknown": 255}
 NO_FIXTURE = {"PAGE_READ"}  # it concerns the system and not the file
 
 
-def load_reader():
-    spec = importlib.util.spec_from_file_location("reader", SOURCE / "reader.py")
-    module = importlib.util.module_from_spec(spec)
-    sys.modules["reader"] = module
-    spec.loader.exec_module(module)
-    return module
-
-
-reader = load_reader()
+sys.path[:0] = [str(SOURCE), str(FOLDER)]
+import checker  # noqa: E402
+import mutate  # noqa: E402
+import reader  # noqa: E402
+from parts import in_order  # noqa: E402
 
 
 def engine_codes(path):
@@ -40,7 +36,7 @@ def engine_codes(path):
         capture_output=True,
         text=True,
     )
-    return sorted({issue["code"] for issue in json.loads(run.stdout)["issues"]})
+    return in_order(json.loads(run.stdout)["issues"])
 
 
 class Fixtures(unittest.TestCase):
@@ -75,15 +71,21 @@ class Fixtures(unittest.TestCase):
                     expected = self.invalid[path]["codes"] if path in self.invalid else []
                     self.assertEqual(codes, expected)
 
-    def test_has_the_codes_of_the_reader(self):
+    def test_has_the_codes_of_the_checker(self):
         with np.errstate(all="ignore"):
-            for path in self.valid:
+            for path in [*self.valid, *self.invalid]:
                 with self.subTest(path.name):
-                    self.assertEqual(reader.verify(str(path), True), [])
-            for path, fixture in self.invalid.items():
-                with self.subTest(path.name):
-                    codes = sorted({issue.code for issue in reader.verify(str(path), True)})
-                    self.assertEqual(codes, fixture.get("reader", fixture["codes"]))
+                    expected = self.invalid[path]["codes"] if path in self.invalid else []
+                    self.assertEqual(in_order(checker.verify(str(path), True)), expected)
+
+    def test_changed_files_have_the_same_first_code_by_engine_and_checker(self):
+        valid = invalid = 0
+        with np.errstate(all="ignore"):
+            for what, codes, own in mutate.compare(COMMAND, 300, 20):
+                self.assertEqual(codes[:1], own[:1], f"{what}: {codes}, {own}")
+                valid, invalid = valid + (not codes), invalid + bool(codes)
+        self.assertGreater(valid, 20)
+        self.assertGreater(invalid, 200)
 
     def test_has_the_answers_of_the_reader(self):
         for path, fixture in self.valid.items():

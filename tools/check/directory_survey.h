@@ -8,7 +8,7 @@
 #include "storage/file/directory_check.h"
 #include "storage/file/directory_shape.h"
 #include "storage/file/file_layout.h"
-#include "storage/system/file_handle.h"
+#include "storage/system/byte_source.h"
 #include "tools/check/issue.h"
 
 namespace planetree::tools {
@@ -17,12 +17,12 @@ namespace planetree::tools {
 /// entries as they are, and the pages behind it from where the blocks above say that they are.
 class DirectorySurvey {
  public:
-  DirectorySurvey(const storage::FileHandle& file, const storage::FileHeader& header)
+  DirectorySurvey(const storage::ByteSource& file, const storage::FileHeader& header)
       : file_(file), header_(header), shape_(header.page_count) {}
 
   /// Reads all blocks, which must lie within the file.
   ///
-  /// errors  those of FileHandle::read_at()
+  /// errors  those of ByteSource::read_at()
   Result<void> run();
 
   /// Where the pages are, unchecked.
@@ -34,7 +34,7 @@ class DirectorySurvey {
   void add_pages(const storage::DirectoryPlace& place, std::span<const std::byte> block,
                  bool is_certain);
 
-  const storage::FileHandle& file_;
+  const storage::ByteSource& file_;
   const storage::FileHeader& header_;
   const storage::DirectoryShape shape_;
   std::uint64_t end_ = 0;  // of the page added last, from page 0 on

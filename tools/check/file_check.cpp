@@ -1,8 +1,8 @@
 #include "tools/check/file_check.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <optional>
 
 #include "tools/check/attribute_check.h"
@@ -15,35 +15,38 @@
 namespace planetree::tools {
 namespace {
 
-/// Checks the fields of the header's model record that need no page.
-void check_model(const storage::ModelRecord& model, IssueList& issues) {
-  const auto wrong = [&issues](const char* message) {
-    issues.add(
-        {IssueCode::kHeaderField, Error::kNowhere, offsetof(storage::FileHeader, model), message});
-  };
-  if (model.triangle_count == 0) wrong("the header states that there is no triangle");
-  if (model.skipped_count > ~std::uint64_t{0} - model.usable_triangles())
-    return wrong("the header's counts of triangles overflow");
-  const std::uint64_t indices = model.usable_triangles() + model.skipped_count;
-  const bool names_one = model.first_skipped != storage::kNoTriangle;
-  if (names_one != (model.skipped_count > 0) || (names_one && model.first_skipped >= indices))
-    wrong("the index of the first skipped triangle does not fit the number of skipped ones");
-  if (model.sample_triangle >= indices) wrong("the sample triangle's index is out of range");
-  const auto listed =
-      std::min<std::uint64_t>(model.unbalanced_edge_count, std::size(model.unbalanced_edge));
-  for (std::size_t i = 0; i < listed; ++i)
-    if (model.unbalanced_edge[i].triangle >= indices)
-      wrong("the index of a triangle with an unbalanced edge is out of range");
+/// Checks that the longest edge of the core is at least 1 and below 2 in the model frame. Edges of
+/// a point, and those that are lost to rounding, have any length.
+void check_scale(const storage::ModelRecord& model, IssueList& issues) {
+  double half = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    half = std::max(half, model.core_upper[axis] / 2 - model.core_lower[axis] / 2);
+  if (half < 0x1p-1001) return;
+  const double edge = std::ldexp(half, model.scale_exponent + 1);
+  if (edge >= 1 && edge < 2) return;
+  issues.add({IssueCode::kHeaderField, Error::kNowhere, offsetof(storage::FileHeader, model),
+              "the header's scale is not that of its core; build the file again"});
+}
+
+/// Adds the issues that were found at open. Returns whether the header's fields are right, so that
+/// pages can be understood.
+bool add_issues(const FileParts& parts, IssueList& issues) {
+  for (const Issue& issue : parts.issues()) {
+    issues.add(issue);
+    if (issue.code == IssueCode::kHeaderField) return false;
+  }
+  if (parts.header() == nullptr) return false;
+  const std::uint64_t before = issues.count();
+  check_scale(parts.header()->model, issues);
+  return issues.count() == before;
 }
 
 }  // namespace
 
 CheckReport check_file(FileParts& parts, bool full, const CheckProgress& progress) {
   CheckReport report;
-  for (const Issue& issue : parts.issues()) report.issues.add(issue);
-  if (parts.header() == nullptr) return report;
+  if (!add_issues(parts, report.issues)) return report;
   const storage::FileHeader& header = *parts.header();
-  check_model(header.model, report.issues);
   if (parts.page_count() == 0) return report;  // the file ends within its directory
   std::optional<GeometryCheck> surface, caps;
   if (full) surface.emplace(header, report.issues);
@@ -57,6 +60,8 @@ CheckReport check_file(FileParts& parts, bool full, const CheckProgress& progres
     if (caps) caps->finish_caps(complete, *surface);
   }
   const auto is_proving = [&] { return full && report.issues.count() == 0; };
+  if (is_proving()) surface->check_keys(parts.entries());
+  if (is_proving() && caps) caps->check_keys(parts.entries());
   check_field(parts, is_proving(), report, progress);
   check_attributes(parts, is_proving(), report, progress);
   check_mask(parts, is_proving(), report, progress);

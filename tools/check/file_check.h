@@ -45,7 +45,7 @@ using CheckProgress = std::function<void(std::uint32_t pages_done)>;
 ///
 /// full    checks also every triangle and vertex, and proves mask and height fields
 /// memory  one page and the pending links to later pages; with `full` also about 2 bits for each
-///         triangle and up to 256 MiB
+///         triangle, 24 bytes for each subtree, and up to 256 MiB
 CheckReport check_file(FileParts& parts, bool full, const CheckProgress& progress = {});
 
 }  // namespace planetree::tools

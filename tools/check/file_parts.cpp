@@ -1,12 +1,9 @@
 #include "tools/check/file_parts.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <bit>
-#include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include "query/file/page_decoding.h"
 #include "query/file/tree_header.h"
@@ -18,7 +15,7 @@
 #include "storage/file/header_faults.h"
 #include "storage/file/metadata.h"
 #include "storage/file/page_codec.h"
-#include "storage/system/file_error.h"
+#include "storage/http/open_source.h"
 #include "tools/check/directory_survey.h"
 
 namespace planetree::tools {
@@ -51,21 +48,18 @@ bool can_serve(const storage::FileHeader& header, std::uint64_t actual_bytes) {
 
 }  // namespace
 
-Result<FileParts> FileParts::open(const std::filesystem::path& path, storage::FileCalls& calls) {
+Result<FileParts> FileParts::open(const std::filesystem::path& path, storage::FileCalls& calls,
+                                  const storage::HttpOptions& http) {
   FileParts parts;
   parts.path_ = path;
-  parts.file_ =
-      storage::FileHandle::open(calls, AT_FDCWD, path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY);
-  struct stat status {};
-  if (!parts.file_.is_open() || calls.fstat(parts.file_.descriptor(), &status) != 0)
-    return storage::file_error(errno, storage::FileAction::kRead, "open the file");
-  if (!S_ISREG(status.st_mode)) {
-    parts.issues_.push_back({IssueCode::kNotPlanetree, Error::kNowhere, Error::kNowhere,
-                             "this is not a file but a directory, device, pipe or socket; name a "
-                             "regular file"});
+  auto source = storage::open_source(path, http, calls);
+  if (!source && source.error().code == ErrorCode::kNotPlanetree) {
+    parts.issues_.push_back(Issue::from(IssueCode::kNotPlanetree, source.error()));
     return parts;
   }
-  parts.actual_bytes_ = static_cast<std::uint64_t>(status.st_size);
+  if (!source) return source.error();
+  parts.file_ = std::move(*source);
+  parts.actual_bytes_ = parts.file_->size_bytes();
   if (const auto loaded = parts.load(); !loaded) return loaded.error();
   return parts;
 }
@@ -90,10 +84,7 @@ Result<void> FileParts::load() {
     issues_.push_back({IssueCode::kHeaderCopy, Error::kNowhere, Error::kNowhere,
                        "one of the file's two headers is damaged; copy the file or build it again "
                        "before the other one is damaged too"});
-  if (const auto checked = storage::check_header(header_, actual_bytes_); !checked) {
-    const IssueCode code = header_issue(checked.error().code, IssueCode::kHeaderField);
-    issues_.push_back(Issue::from(code, checked.error()));
-  }
+  check_header();
   if (!can_serve(header_, actual_bytes_)) return {};
   if (const auto checked = query::check_page_limits(header_); !checked) {
     issues_.push_back(Issue::from(IssueCode::kFormatUnsupported, checked.error()));
@@ -103,6 +94,18 @@ Result<void> FileParts::load() {
   frame_.resize(header_.page_bytes);
   if (const auto loaded = load_extensions(); !loaded) return loaded;
   return load_directory();
+}
+
+/// Checks the header. Where the file has another length, the other fields are checked all the same.
+void FileParts::check_header() {
+  auto checked = storage::check_header(header_, actual_bytes_);
+  if (!checked && checked.error().code == ErrorCode::kTruncated) {
+    issues_.push_back(Issue::from(IssueCode::kFileLength, checked.error()));
+    checked = storage::check_header(header_, header_.file_bytes);
+  }
+  if (checked) return;
+  const IssueCode code = header_issue(checked.error().code, IssueCode::kHeaderField);
+  issues_.push_back(Issue::from(code, checked.error()));
 }
 
 Result<void> FileParts::load_extensions() {
@@ -118,22 +121,17 @@ Result<void> FileParts::load_extensions() {
       if (const auto loaded = load_extension(record); !loaded) return loaded;
     return {};
   }
-  const IssueCode code = header_issue(checked.error().code, IssueCode::kExtension);
-  issues_.push_back(Issue::from(code, checked.error()));
+  issues_.push_back(Issue::from(IssueCode::kExtension, checked.error()));
   extensions_.clear();
   return {};
 }
 
 Result<void> FileParts::load_directory() {
   if (header_.extension_count > storage::kMaxExtensions ||
-      storage::pages_start(header_) > actual_bytes_) {
-    issues_.push_back({IssueCode::kDirectory, Error::kNowhere, actual_bytes_,
-                       "the file ends before its directory does; restore the file from a copy or "
-                       "build it again"});
-    return {};
-  }
-  // check_header() has checked the file's length. The directory of a truncated file may be whole.
-  DirectorySurvey survey(file_, header_);
+      storage::pages_start(header_) > actual_bytes_)
+    return {};  // check_header() has reported it
+  // The directory of a truncated file may be whole.
+  DirectorySurvey survey(*file_, header_);
   if (const auto read = survey.run(); !read) return read;
   entries_ = std::move(survey.entries);
   issues_.insert(issues_.end(), survey.issues.begin(), survey.issues.end());
@@ -141,13 +139,20 @@ Result<void> FileParts::load_directory() {
   return {};
 }
 
-/// Checks what the header states of the lengths of pages. Model::open() does not, because it does
-/// not read the whole directory of a large file.
+/// Checks what concerns the whole directory: the order of octcodes, and what the header states of
+/// the lengths of pages. Model::open() does not, because it does not read the whole directory of a
+/// large file.
 void FileParts::check_lengths() {
   if (!issues_.empty()) return;
   std::uint64_t stored[storage::kPageKinds] = {};
   std::uint32_t max_raw = 0, max_stored = 0;
   for (std::uint32_t page = 0; page < page_count(); ++page) {
+    const bool follows = page > 0 && header_.kind_of(page - 1) == header_.kind_of(page);
+    const bool strictly = page > header_.first_mask_page();
+    if (follows && entries_[page - 1].octcode + strictly > entries_[page].octcode)
+      return issues_.push_back({IssueCode::kDirectory, page, Error::kNowhere,
+                                "the page's octcode does not follow the one before; build the "
+                                "file again"});
     stored[static_cast<unsigned>(header_.kind_of(page))] += entries_[page].stored_bytes;
     max_raw = std::max(max_raw, entries_[page].raw_bytes);
     max_stored = std::max(max_stored, entries_[page].stored_bytes);
@@ -190,7 +195,7 @@ Result<void> FileParts::load_extension(const storage::ExtensionRecord& record) {
 }
 
 Result<void> FileParts::read_at(std::uint64_t offset, std::span<std::byte> out) const {
-  return out.empty() ? Result<void>{} : file_.read_at(offset, out);
+  return out.empty() ? Result<void>{} : file_->read_at(offset, out);
 }
 
 /// Checks a table entry before memory is allocated or bytes are read for it, because the table may

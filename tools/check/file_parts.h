@@ -4,25 +4,48 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "octree/attributes/attribute_page.h"
 #include "octree/field/field_page.h"
+#include "octree/page/frame.h"
 #include "octree/page/mask_streams.h"
 #include "octree/page/page_streams.h"
 #include "planetree/error.h"
 #include "planetree/metadata.h"
 #include "query/file/page_decoding.h"
 #include "storage/file/file_layout.h"
+#include "storage/http/http_options.h"
+#include "storage/system/byte_source.h"
 #include "storage/system/file_calls.h"
-#include "storage/system/file_handle.h"
-#include "tools/check/aligned_bytes.h"
 #include "tools/check/frame_view.h"
 #include "tools/check/issue.h"
 
 namespace planetree::tools {
+
+/// Bytes aligned to a slot, as frames must be.
+class AlignedBytes {
+ public:
+  /// Allocates `bytes`, a multiple of the slot. The old content is lost.
+  void resize(std::size_t bytes) {
+    if (bytes == bytes_) return;
+    slots_ = std::make_unique<Slot[]>(bytes / sizeof(Slot));
+    bytes_ = bytes;
+  }
+  std::byte* data() { return reinterpret_cast<std::byte*>(slots_.get()); }
+  const std::byte* data() const { return reinterpret_cast<const std::byte*>(slots_.get()); }
+  std::span<std::byte> span() { return {data(), bytes_}; }
+
+ private:
+  struct alignas(octree::kSlotBytes) Slot {
+    std::byte bytes[octree::kSlotBytes];
+  };
+  std::unique_ptr<Slot[]> slots_;
+  std::size_t bytes_ = 0;
+};
 
 /// A .ptree file that may be damaged in any part. Model::open refuses such a file; this reads what
 /// is still readable.
@@ -30,12 +53,14 @@ namespace planetree::tools {
 /// threads  one at a time, because the page read last is kept here
 class FileParts {
  public:
-  /// Opens a file and reads its headers, its directory and its extensions.
+  /// Opens a file or a URL, and reads its headers, its directory and its extensions.
   ///
+  /// http    for a URL
   /// errors  kNotFound, kPermission, kReadFailed, kNoMemory: the file cannot be opened or
   ///         read. Everything else becomes an issue.
   static Result<FileParts> open(const std::filesystem::path& path,
-                                storage::FileCalls& calls = storage::FileCalls::real());
+                                storage::FileCalls& calls = storage::FileCalls::real(),
+                                const storage::HttpOptions& http = {});
 
   /// Issues found at open, outside of pages.
   std::span<const Issue> issues() const { return issues_; }
@@ -118,12 +143,13 @@ class FileParts {
   Result<void> load_extensions();
   Result<void> load_extension(const storage::ExtensionRecord& record);
   Result<void> load_directory();
+  void check_header();
   void check_lengths();
   Result<void> read_at(std::uint64_t offset, std::span<std::byte> out) const;
   const char* fault_of(const storage::PageEntry& entry) const;
 
   std::filesystem::path path_;
-  storage::FileHandle file_;
+  std::unique_ptr<storage::ByteSource> file_;
   std::uint64_t actual_bytes_ = 0;
   bool has_header_ = false;
   storage::FileHeader header_{};

@@ -17,6 +17,8 @@ namespace {
 using octree::Point;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Sums of another writer differ by rounding.
+constexpr double kOpennessRounding = 0x1p-30;
 
 Point point_of(const std::array<float, 3>& values) {
   return {static_cast<double>(values[0]), static_cast<double>(values[1]),
@@ -57,6 +59,8 @@ GeometryCheck::GeometryCheck(const storage::FileHeader& header, IssueList& issue
     : model_(header.model),
       issues_(issues),
       of_caps_(of_caps),
+      keys_(query::Scale(model_.scale_exponent).in(vec3_of(model_.core_lower)),
+            of_caps ? header.first_cap_page() : 0),
       edges_(model_),
       areas_(query::Scale(model_.scale_exponent).in(vec3_of(model_.core_lower)),
              query::Scale(model_.scale_exponent).in(vec3_of(model_.core_upper))),
@@ -79,7 +83,9 @@ void GeometryCheck::add(const octree::BlockView& block, std::uint32_t page, cons
     lower_ = lower_.cwiseMin(block.vertex(i));
     upper_ = upper_.cwiseMax(block.vertex(i));
   }
-  for (unsigned i = 0; i < block.triangle_count(); ++i) add_triangle(block.triangle(i), page);
+  for (unsigned i = 0; i < block.triangle_count(); ++i)
+    add_triangle(block.triangle(i), block.id(i), page);
+  add_codes(block, bounds);
   if (bounds == nullptr) return;
   check_vertices(block, page, *bounds);
   if (of_caps_ && !moments_fit(*bounds, block, point_of(model_.centre)))
@@ -89,12 +95,31 @@ void GeometryCheck::add(const octree::BlockView& block, std::uint32_t page, cons
                block.id(0)));
 }
 
-void GeometryCheck::add_triangle(const octree::Triangle& triangle, std::uint32_t page) {
-  edges_.add(triangle);
-  if (of_caps_)
+void GeometryCheck::add_codes(const octree::BlockView& block, const Bounds* bounds) {
+  PageKeys::CodeRange range;
+  for (unsigned i = 0; i < block.triangle_count(); ++i) range.add(keys_.code_of(block.triangle(i)));
+  keys_.add(0, range);
+  for (const Bounds* each = bounds; each != nullptr; each = each->above.get())
+    if (each->subtree > 0) keys_.add(each->subtree, range);
+}
+
+void GeometryCheck::check_keys(std::span<const storage::PageEntry> entries) {
+  keys_.for_each_page([&](std::uint32_t page, std::uint64_t octcode) {
+    if (entries[page].octcode != octcode)
+      report(IssueCode::kPageStructure, page,
+             "the page's octcode is not the least of its subtrees; build the file again");
+  });
+}
+
+void GeometryCheck::add_triangle(const octree::Triangle& triangle, std::uint64_t index,
+                                 std::uint32_t page) {
+  if (of_caps_) {
+    edges_.add_cap(triangle);
     area_ += octree::area_of(triangle);
-  else
+  } else {
+    edges_.add(triangle, index);
     areas_.add(triangle);
+  }
   if (!of_caps_ && has_walls_ && !octree::may_touch(triangle, region_lower_, region_upper_))
     report(IssueCode::kRegion, page, "a triangle does not touch the file's region");
 }
@@ -110,19 +135,9 @@ void GeometryCheck::add_ids(const octree::BlockView& block, std::uint32_t page) 
     min_id_ = std::min(min_id_, id);
     if (!insert(id))
       report(IssueCode::kTriangleTwice, page, fmt::format("triangle {} appears twice", id));
-    if (!of_caps_ && id == model_.sample_triangle) check_sample(block, i, page);
+    if (!of_caps_ && id == model_.sample_triangle)
+      sample_seen_ = sample_seen_ || block.triangle(i)[0] == point_of(model_.sample);
   }
-}
-
-void GeometryCheck::check_sample(const octree::BlockView& block, unsigned triangle,
-                                 std::uint32_t page) {
-  sample_seen_ = true;
-  const Point sample = point_of(model_.sample);
-  for (const Point& corner : block.triangle(triangle))
-    if (corner == sample) return;
-  report(IssueCode::kSample, page,
-         fmt::format("the header's sample point is not a vertex of triangle {}",
-                     model_.sample_triangle));
 }
 
 void GeometryCheck::check_vertices(const octree::BlockView& block, std::uint32_t page,
@@ -158,8 +173,27 @@ bool GeometryCheck::is_box(double lower, double upper, int axis) const {
   return lower == lower_[axis] && upper == upper_[axis];
 }
 
+// Checks that the root's box is the least one of floats that encloses all vertices.
+void GeometryCheck::check_root() {
+  if (!root_) return;
+  const auto wide = [](float value) { return static_cast<double>(value); };
+  constexpr float kFar = std::numeric_limits<float>::infinity();
+  const Point lower = lower_ - point_of(model_.centre), upper = upper_ - point_of(model_.centre);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto at = static_cast<Eigen::Index>(axis);
+    const float least = root_->lower[axis], greatest = root_->upper[axis];
+    if (wide(least) <= lower[at] && lower[at] < wide(std::nextafter(least, kFar)) &&
+        wide(std::nextafter(greatest, -kFar)) < upper[at] && upper[at] <= wide(greatest))
+      continue;
+    return issues_.add({IssueCode::kRootBox, Error::kNowhere, Error::kNowhere,
+                        "the root's box is not the least one that encloses all vertices; build "
+                        "the file again"});
+  }
+}
+
 void GeometryCheck::finish(bool complete) {
   if (!complete) return;
+  check_root();
   const query::Scale scale(model_.scale_exponent);
   const auto whole_file = [this](IssueCode code, std::string message) {
     issues_.add({code, Error::kNowhere, Error::kNowhere, std::move(message)});
@@ -172,12 +206,13 @@ void GeometryCheck::finish(bool complete) {
   if (auto finding = has_walls_ ? std::nullopt : edges_.finding())
     whole_file(IssueCode::kUnbalancedEdges, *std::move(finding));
   const double openness = model_.unbalanced_edge_count > 0 ? areas_.openness() : 0;
-  if (!has_walls_ && openness != model_.openness)
+  if (!has_walls_ && !(std::fabs(openness - model_.openness) <= kOpennessRounding))
     whole_file(IssueCode::kOpenness, fmt::format("the header's openness is {:.17g}, not {:.17g}",
                                                  model_.openness, openness));
   if (!sample_seen_)
     whole_file(IssueCode::kSample,
-               fmt::format("the header's sample triangle {} is missing", model_.sample_triangle));
+               fmt::format("the header's sample point is not corner 0 of triangle {}",
+                           model_.sample_triangle));
   else if (min_id_ != model_.sample_triangle)
     whole_file(
         IssueCode::kSample,
@@ -187,6 +222,7 @@ void GeometryCheck::finish(bool complete) {
 
 void GeometryCheck::finish_caps(bool complete, const GeometryCheck& surface) {
   if (!complete) return;
+  check_root();
   const auto wrong = [this](std::string message) {
     issues_.add({IssueCode::kCaps, Error::kNowhere, Error::kNowhere, std::move(message)});
   };

@@ -3,6 +3,8 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <span>
 #include <unordered_map>
 
 #include "octree/geometry/area_sums.h"
@@ -12,6 +14,7 @@
 #include "storage/file/file_layout.h"
 #include "tools/check/edge_check.h"
 #include "tools/check/file_check.h"
+#include "tools/check/page_keys.h"
 
 namespace planetree::tools {
 
@@ -22,10 +25,11 @@ struct Bounds {
   octree::Disc disc;
   octree::Moments moments;              ///< zeros where there are none
   std::shared_ptr<const Bounds> above;  ///< null below the root
+  std::uint32_t subtree = 0;            ///< PageKeys: the one that begins here; 0: none does
 };
 
 /// Checks in double that the stated float bounds hold for every triangle, and in the end the
-/// header's box, sample, unbalanced edges and openness.
+/// root's box, and the header's box, sample, unbalanced edges and openness.
 class GeometryCheck {
  public:
   /// of_caps  checks the tree of caps, not the surface
@@ -37,7 +41,13 @@ class GeometryCheck {
   void add(const octree::BlockView& block, std::uint32_t page, const Bounds* bounds);
   /// Checks the moments that are stated for a node against those that it states for its children.
   void add_node(const octree::Node& node, std::uint32_t page, const Bounds& bounds);
-  /// Checks the header.
+  /// Adds a subtree of another page, which Bounds::subtree then names.
+  std::uint32_t add_subtree(std::uint32_t page) { return keys_.add_subtree(page); }
+  /// Adds the box that is stated for the root of the tree.
+  void add_root(const octree::FloatBox& box) { root_ = box; }
+  /// Checks the octcodes of the pages, once all blocks were added.
+  void check_keys(std::span<const storage::PageEntry> entries);
+  /// Checks the header and the root's box.
   ///
   /// complete  whether all blocks were added; otherwise nothing is checked
   void finish(bool complete);
@@ -47,9 +57,10 @@ class GeometryCheck {
   void finish_caps(bool complete, const GeometryCheck& surface);
 
  private:
-  void add_triangle(const octree::Triangle& triangle, std::uint32_t page);
+  void add_triangle(const octree::Triangle& triangle, std::uint64_t index, std::uint32_t page);
+  void add_codes(const octree::BlockView& block, const Bounds* bounds);
+  void check_root();
   void add_ids(const octree::BlockView& block, std::uint32_t page);
-  void check_sample(const octree::BlockView& block, unsigned triangle, std::uint32_t page);
   void check_vertices(const octree::BlockView& block, std::uint32_t page, const Bounds& bounds);
   bool insert(std::uint64_t id);
   bool is_box(double lower, double upper, int axis) const;
@@ -63,6 +74,8 @@ class GeometryCheck {
   std::uint64_t min_id_ = storage::kNoTriangle;
   double area_ = 0;  // of the caps
   bool sample_seen_ = false;
+  std::optional<octree::FloatBox> root_;
+  PageKeys keys_;
   EdgeCheck edges_;
   octree::AreaSums areas_;
   octree::Point lower_, upper_;                // of all vertices, model frame

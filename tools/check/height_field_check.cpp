@@ -32,6 +32,8 @@ class HeightFieldCheck {
 
  private:
   void check(std::uint32_t page, std::uint32_t slot, const octree::BlockView& block) {
+    if (!parts_.header()->model.has_side_layer())
+      return report(page, slot, "marked as a height field, but the file has no side layer");
     if (query::region_of(parts_.header()->model).has_walls())
       return report(page, slot, "marked as a height field, but the file is of a region with walls");
     if (!is_proven(block) && !unreadable_)

@@ -32,7 +32,9 @@ std::unique_ptr<MaskProof> open_proof(const FileParts& parts, IssueList& issues)
 void check_mask(FileParts& parts, bool prove, CheckReport& report, const CheckProgress& progress) {
   const storage::ModelRecord& model = parts.header()->model;
   std::unique_ptr<MaskProof> proof;
-  if (prove && model.mask_page_count > 0) proof = open_proof(parts, report.issues);
+  const bool has_winding = model.has_region() && model.has_side_layer();
+  if (prove && (model.mask_page_count > 0 || has_winding)) proof = open_proof(parts, report.issues);
+  if (proof && has_winding && !proof->check_region()) proof.reset();
   unsigned levels = 0;
   MaskWalk walk(
       parts,

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
+#include <vector>
 
 #include "octree/builder/mask/block_lister.h"
 #include "octree/builder/mask/special_cell.h"
@@ -15,7 +17,6 @@
 #include "octree/winding/crossings.h"
 #include "query/answer/side_search.h"
 #include "query/serve/page_accessor.h"
-#include "tools/check/slab_check.h"
 
 namespace planetree::tools {
 namespace {
@@ -59,6 +60,47 @@ bool has_all(const octree::MaskBlocks& stated, const octree::MaskBlocks& found) 
     if ((found.octants[i] & ~octants) != 0) return false;
   }
   return true;
+}
+
+using Polygon = std::vector<Point>;
+
+/// Allowed rounding, as a share of a step, which is 1/256 of CellSlab::width().
+constexpr double kRounding = 0x1p-20;
+
+// Clips a polygon to the half space `sign` * (x[axis] - at) >= 0 (Sutherland and Hodgman 1974).
+Polygon clipped(const Polygon& polygon, unsigned axis, double at, double sign) {
+  Polygon kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Point &from = polygon[i], &to = polygon[(i + 1) % polygon.size()];
+    const double here = sign * (from[axis] - at), there = sign * (to[axis] - at);
+    if (here >= 0) kept.push_back(from);
+    if ((here < 0) != (there < 0)) kept.push_back(from + (to - from) * (here / (here - there)));
+  }
+  return kept;
+}
+
+// Whether the part of a triangle within a cell, of these corners, is within the cell's slab, up to
+// rounding.
+bool is_part_within_slab(const octree::CellSlab& slab, const octree::Triangle& triangle,
+                         const octree::Point& lower, const octree::Point& upper, unsigned level) {
+  const double step = slab.width() / 256.0, rounding = kRounding * step;
+  const double least = (slab.lower + 0.5) * step, greatest = (slab.upper + 0.5) * step;
+  const auto is_within = [&](const Point& at) {
+    const double height = slab.height(at);
+    return (slab.lower == octree::CellSlab::kNoLower || height >= least - rounding) &&
+           (slab.upper == octree::CellSlab::kNoUpper || height <= greatest + rounding);
+  };
+  Polygon polygon;
+  for (const Point& corner : triangle)
+    polygon.push_back(octree::CellSlab::position_in(corner, lower, level));
+  // In most cases all corners are within, and nothing need be clipped.
+  if (std::all_of(polygon.begin(), polygon.end(), is_within)) return true;
+  const Point end = octree::CellSlab::position_in(upper, lower, level);
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    polygon = clipped(polygon, axis, 0, 1);
+    polygon = clipped(polygon, axis, end[axis], -1);
+  }
+  return std::all_of(polygon.begin(), polygon.end(), is_within);
 }
 
 }  // namespace
@@ -105,7 +147,7 @@ void MaskProof::check_colour(std::uint32_t page, const GridCell& cell, int colou
              fmt::format("cell {} is {}, but it is outside of the region", cell_name(cell), name));
     return;
   }
-  if (!triangles_touching(cell).empty())
+  if (!triangles_touching(cell).empty() || !caps_touching(cell).empty())
     return report(IssueCode::kMaskColour, page,
                   fmt::format("cell {} is {}, but triangles touch it", cell_name(cell), name));
   const std::optional<std::int64_t> number = winding(cell, 0);
@@ -167,8 +209,7 @@ bool MaskProof::is_within_slab(const GreyCell& grey, const octree::BlockView& bl
   if (!slab.has_plane()) return true;
   const Point lower = grid_.lower(grey.cell), upper = grid_.upper(grey.cell);
   for (unsigned i = 0; i < block.triangle_count(); ++i)
-    if (!tools::is_within_slab(slab, block.triangle(i), lower, upper, grey.cell.level))
-      return false;
+    if (!is_part_within_slab(slab, block.triangle(i), lower, upper, grey.cell.level)) return false;
   return true;
 }
 
@@ -181,7 +222,8 @@ void MaskProof::check_special(const GreyCell& grey) {
     if (!number) return;
     numbers[corner] = *number;
   }
-  if (!octree::is_special_cell(claim_of(grey), triangles_touching(grey.cell), corners, numbers))
+  if (!caps_touching(grey.cell).empty() ||
+      !octree::is_special_cell(claim_of(grey), triangles_touching(grey.cell), corners, numbers))
     report(IssueCode::kMaskPlanes, grey.page,
            fmt::format("the planes of cell {} do not describe which part of it is inside",
                        cell_name(grey.cell)));
@@ -196,14 +238,9 @@ std::optional<std::int64_t> MaskProof::winding(const GridCell& cell, unsigned co
 std::optional<std::int64_t> MaskProof::count_winding(const Point& point) {
   const octree::TreeInfo& tree = model_->geometry().tree;
   if (query::outside_box(tree, point)) return 0;
+  if (model_->geometry().region.has_walls()) return count_along_walls(point);
   query::PageAccessor accessor(reader_, Wait::kForPages);
   octree::TraversalStats work;
-  if (model_->geometry().region.has_walls()) {
-    const octree::Crossings crossings = octree::count_crossings(
-        tree, {point, model_->geometry().region_corner}, kAllNodes, accessor.pages(), work);
-    if (!crossings.complete) return std::nullopt;
-    return model_->geometry().region_winding + crossings.difference;
-  }
   const query::ExitSegments segments(tree, point);
   for (const query::ExitSegments::Segment& segment : segments.all()) {
     const octree::Crossings crossings =
@@ -213,12 +250,54 @@ std::optional<std::int64_t> MaskProof::count_winding(const Point& point) {
   return std::nullopt;
 }
 
+std::optional<std::int64_t> MaskProof::count_along_walls(const Point& point) {
+  const query::ModelGeometry& model = model_->geometry();
+  Point end = model.region_corner;
+  std::int64_t number = model.region_winding;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const double lower = model.tree.box_lower[axis], upper = model.tree.box_upper[axis];
+    if (!std::isinf(model.region.lower()[axis]) && !std::isinf(model.region.upper()[axis]))
+      continue;
+    end = point;
+    end[axis] = std::isinf(model.region.upper()[axis]) ? upper + 1 + std::fabs(upper)
+                                                       : lower - 1 - std::fabs(lower);
+    number = 0;
+  }
+  query::PageAccessor accessor(reader_, Wait::kForPages);
+  octree::TraversalStats work;
+  const octree::Crossings crossings =
+      octree::count_crossings(model.tree, {point, end}, kAllNodes, accessor.pages(), work);
+  if (!crossings.complete) return std::nullopt;
+  return number + crossings.difference;
+}
+
+bool MaskProof::check_region() {
+  const std::optional<std::int64_t> number = count_along_walls(grid_.corner(GridCell{}, 0));
+  const std::int64_t stated = model_->geometry().region_winding;
+  if (!number || *number == stated) return true;
+  report(IssueCode::kRegion, 0,
+         fmt::format("the winding number at the region's first corner is {}, not {}; build the "
+                     "file again",
+                     *number, stated));
+  return false;
+}
+
+std::vector<Triangle> MaskProof::caps_touching(const GridCell& cell) {
+  const octree::TreeInfo* caps = model_->geometry().tree.caps;
+  return caps ? triangles_touching(cell, *caps) : std::vector<Triangle>();
+}
+
 std::vector<Triangle> MaskProof::triangles_touching(const GridCell& cell) {
+  return triangles_touching(cell, model_->geometry().tree);
+}
+
+std::vector<Triangle> MaskProof::triangles_touching(const GridCell& cell,
+                                                    const octree::TreeInfo& tree) {
   const Point lower = grid_.lower(cell), upper = grid_.upper(cell);
   query::PageAccessor accessor(reader_, Wait::kForPages);
   octree::TraversalStats work;
   std::vector<Triangle> found;
-  octree::BoxWalk(model_->geometry().tree, lower, upper, accessor.pages(), work)
+  octree::BoxWalk(tree, lower, upper, accessor.pages(), work)
       .run(kAllNodes, [&](const octree::BlockView& block, std::uint32_t) {
         for (unsigned i = 0; i < block.triangle_count(); ++i)
           if (const Triangle triangle = block.triangle(i);

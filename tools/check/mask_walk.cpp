@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <optional>
 #include <utility>
@@ -53,8 +54,8 @@ void MaskWalk::add(std::uint32_t number) {
   if (number == parts_.first_mask_page()) {
     page.cell(0) = GridCell{};
     if (page.header().root_count != 1)
-      report_({IssueCode::kSubtreeUnlinked, number, Error::kNowhere,
-               "the mask's first page does not have exactly one root"});
+      report_({IssueCode::kPageStructure, number, Error::kNowhere,
+               "the mask's first page does not have exactly one root; build the file again"});
   } else {
     take_roots(page);
   }
@@ -72,15 +73,19 @@ void MaskWalk::add(std::uint32_t number) {
 void MaskWalk::take_roots(Page& page) {
   const std::uint32_t within = page.number - parts_.first_mask_page();
   const std::uint32_t end = page.header().root_count;
+  std::uint64_t least = ~std::uint64_t{0};  // octcode of the nodes
+  bool are_known = true;
   for (std::uint32_t first = 0; first < end;) {
     const std::optional<FamilyParent> parent = pending_.take({within, first, false});
     if (!parent) {
       if (complete_)
         report_({IssueCode::kSubtreeUnlinked, page.number, Error::kNowhere,
                  fmt::format("no link leads to the family at record {} of the mask page", first)});
+      are_known = false;
       ++first;
       continue;
     }
+    least = std::min(least, parent->cell.octcode());
     const auto members = static_cast<unsigned>(std::popcount(parent->node.grey));
     if (members > end - first)
       report_({IssueCode::kLinkTarget, page.number, Error::kNowhere,
@@ -91,6 +96,10 @@ void MaskWalk::take_roots(Page& page) {
       assign_cells(page, parent->node, parent->cell, first);
     first += members;
   }
+  if (are_known && parts_.entries()[page.number].octcode != least)
+    report_({IssueCode::kPageStructure, page.number, Error::kNowhere,
+             "the page's octcode is not the least of the nodes of its first families; build the "
+             "file again"});
 }
 
 void MaskWalk::assign_cells(Page& page, const MaskNode& node, const GridCell& cell,
@@ -141,6 +150,9 @@ void MaskWalk::visit_record(Page& page, std::uint32_t number, const GridCell& ce
   const std::uint32_t to = links_.page(family);
   // As in any page of the mask.
   const std::uint32_t first = links_.slot(family) - page.header().first_record_slot;
+  if (cell.level == 0 && to + parts_.first_mask_page() != page.number)
+    report_({IssueCode::kPageStructure, page.number, Error::kNowhere,
+             "the family of the mask's root is in another page; build the file again"});
   if (to + parts_.first_mask_page() == page.number)
     assign_cells(page, *grey.node, cell, first);
   else if (!pending_.add({to, first, false}, {cell, *grey.node}))

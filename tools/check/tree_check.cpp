@@ -11,6 +11,7 @@
 
 #include "query/answer/model_geometry.h"
 #include "query/file/scale.h"
+#include "tools/check/page_rules.h"
 #include "tools/check/subtree_links.h"
 
 namespace planetree::tools {
@@ -57,6 +58,7 @@ class TreeCheck {
   using Chain = std::shared_ptr<const Bounds>;
 
   void check_page(std::uint32_t page);
+  std::optional<Issue> load();
   void check_roots();
   void check_root_node(std::uint32_t index, const FloatBox& box);
   void check_root_box(const FloatBox& box);
@@ -93,6 +95,7 @@ class TreeCheck {
 
   // Of the current page.
   std::uint32_t page_ = 0;
+  std::uint32_t ordinal_ = 0;  // its rank among the pages of its octcode
   std::optional<FrameView> frame_;
   std::vector<Chain> node_bounds_;               // by node
   std::map<std::uint32_t, Chain> block_bounds_;  // by slot
@@ -115,7 +118,10 @@ bool TreeCheck::run(const CheckProgress& progress) {
 
 void TreeCheck::check_page(std::uint32_t page) {
   page_ = page;
-  std::optional<Issue> issue = parts_.load_page(page);
+  const auto octcode = [this](std::uint32_t of) { return parts_.entries()[of].octcode; };
+  const bool follows = page > section_.first_page && octcode(page - 1) == octcode(page);
+  ordinal_ = follows ? ordinal_ + 1 : 0;
+  std::optional<Issue> issue = load();
   if (issue) {
     report_.issues.add(*std::move(issue));
     complete_ = false;
@@ -124,7 +130,6 @@ void TreeCheck::check_page(std::uint32_t page) {
     });
     return;
   }
-  frame_.emplace(parts_.frame());
   node_bounds_.assign(frame_->node_count(), nullptr);
   block_bounds_.clear();
   ++report_.pages;
@@ -133,6 +138,17 @@ void TreeCheck::check_page(std::uint32_t page) {
   check_roots();
   check_nodes();
   check_blocks();
+}
+
+// Loads the current page. Empty if it is sound by itself.
+std::optional<Issue> TreeCheck::load() {
+  if (std::optional<Issue> issue = parts_.load_page(page_)) return issue;
+  frame_.emplace(parts_.frame());
+  octree::RawStreams streams;
+  if (!parts_.read(streams)) return std::nullopt;
+  const char* fault = fault_of_rules(streams, *frame_, ordinal_);
+  if (!fault) return std::nullopt;
+  return Issue{IssueCode::kPageStructure, page_, parts_.entries()[page_].offset, fault};
 }
 
 void TreeCheck::check_roots() {
@@ -168,6 +184,7 @@ void TreeCheck::check_root_node(std::uint32_t index, const FloatBox& box) {
   const std::uint8_t height = frame_->node(index).height;
   if (claim->is_root) {
     if (!section_.is_of_caps) check_root_box(box);
+    if (geometry_) geometry_->add_root(box);
     if (height != section_.height)
       report(IssueCode::kHeight, fmt::format("the root's height is {}, but the header states {}",
                                              height, section_.height));
@@ -218,9 +235,9 @@ void TreeCheck::check_node(std::uint32_t index) {
       open.highest_child = std::max(open.highest_child, frame_->node(below).height);
     }
     if (!geometry_) continue;
-    auto bounds =
-        std::make_shared<const Bounds>(Bounds{child_box(node, child), child_disc(node, child),
-                                              frame_->moments(node, child), node_bounds_[index]});
+    auto bounds = std::make_shared<const Bounds>(
+        Bounds{child_box(node, child), child_disc(node, child), frame_->moments(node, child),
+               node_bounds_[index], 0});
     if (octree::LinkFormat::is_leaf(link))
       block_bounds_[links_.slot(link)] = std::move(bounds);
     else
@@ -237,9 +254,10 @@ void TreeCheck::follow_link(std::uint32_t index, unsigned child, OpenNode& open)
   const std::uint32_t link = node.link[child];
   const std::uint32_t to = frame_->node_at_slot(links_.slot(link));  // as in any page of the tree
   SubtreeClaim claim;
-  claim.bounds =
-      std::make_shared<const Bounds>(Bounds{child_box(node, child), child_disc(node, child),
-                                            frame_->moments(node, child), node_bounds_[index]});
+  Bounds bounds{child_box(node, child), child_disc(node, child), frame_->moments(node, child),
+                node_bounds_[index], 0};
+  if (geometry_) bounds.subtree = geometry_->add_subtree(links_.page(link));
+  claim.bounds = std::make_shared<const Bounds>(std::move(bounds));
   claim.parent = key_of(index);
   if (pending_.add({links_.page(link), to, false}, std::move(claim)))
     ++open.children_left;

@@ -7,6 +7,17 @@
 
 namespace planetree::tools {
 
+void add_http_cache(SubcommandOptions& subcommand, HttpCacheChoice& choice) {
+  const auto directory =
+      subcommand.path("--http-cache", "DIR", choice.directory,
+                      "Keep what is read of a URL in this directory, for later commands");
+  const auto bytes = SubcommandOptions::default_text(
+      subcommand.bytes("--http-cache-size", choice.bytes,
+                       "Maximum size of the file in --http-cache; the file is cut if it is larger"),
+      "1G");
+  subcommand.need(bytes, directory);
+}
+
 unsigned batch_threads_of(unsigned wanted) {
   return wanted != 0 ? wanted
                      : std::min(storage::usable_processors(), OpenOptions::kMaxBatchThreads);
@@ -28,12 +39,15 @@ Error too_little_memory(std::uint64_t memory_bytes, std::uint64_t least_bytes) {
                     memory_bytes, least_bytes);
 }
 
-std::optional<Error> pages_lost(const Stats& stats) {
+std::optional<Error> pages_lost(const Stats& stats, const std::optional<Error>& last) {
   if (stats.quarantined_pages != 0)
     return make_error(ErrorCode::kDamaged, Error::kNowhere, Error::kNowhere,
                       "%" PRIu64 " of its pages cannot be read, so %" PRIu64
                       " answers are degraded; planetree verify names the pages",
                       stats.quarantined_pages, stats.degraded_answers);
+  if (stats.waits_given_up != 0 && last)
+    return make_error(last->code, last->page, Error::kNowhere,
+                      "%" PRIu64 " answers are degraded: %s", stats.degraded_answers, last->text);
   if (stats.waits_given_up != 0)
     return make_error(ErrorCode::kReadFailed, Error::kNowhere, Error::kNowhere,
                       "%" PRIu64 " waits for its pages reached the limit, so %" PRIu64

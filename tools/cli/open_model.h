@@ -8,8 +8,23 @@
 #include "planetree/model.h"
 #include "planetree/stats.h"
 #include "tools/cli/subcommand.h"
+#include "tools/cli/subcommand_options.h"
 
 namespace planetree::tools {
+
+/// Where models that are opened by URL keep what they read.
+struct HttpCacheChoice {
+  std::filesystem::path directory;  ///< empty: nowhere
+  std::uint64_t bytes = OpenOptions{}.http_cache_bytes;
+
+  void apply_to(OpenOptions& options) const {
+    options.http_cache = directory;
+    options.http_cache_bytes = bytes;
+  }
+};
+
+/// Declares the options --http-cache and --http-cache-size, which set `choice`.
+void add_http_cache(SubcommandOptions& subcommand, HttpCacheChoice& choice);
 
 /// The number of batch threads: `wanted`, or one for each processor if that is 0.
 unsigned batch_threads_of(unsigned wanted);
@@ -28,6 +43,8 @@ Error too_little_memory(std::uint64_t memory_bytes, std::uint64_t least_bytes);
 
 /// The error to report after the answers if pages were unreadable or did not come in time, so that
 /// answers are degraded. Empty if there were none.
-std::optional<Error> pages_lost(const Stats& stats);
+///
+/// last  Model::read_error(), which tells why pages of a URL did not come
+std::optional<Error> pages_lost(const Stats& stats, const std::optional<Error>& last = {});
 
 }  // namespace planetree::tools

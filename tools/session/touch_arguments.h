@@ -5,6 +5,7 @@
 
 #include "planetree/layers.h"
 #include "planetree/model.h"
+#include "tools/cli/open_model.h"
 #include "tools/cli/report_page.h"
 #include "tools/session/session_path.h"
 
@@ -31,7 +32,8 @@ struct TouchArguments {
   PageChoice page;                    ///< page to write, and whether files may be replaced
   bool cold = false;                  ///< drop the file from the system's page cache first
   bool no_io_uring = false;
-  bool read_ahead = false;  ///< OpenOptions::read_ahead of the session
+  HttpCacheChoice http_cache;  ///< for a URL
+  bool read_ahead = false;     ///< OpenOptions::read_ahead of the session
   bool json = false;
 };
 

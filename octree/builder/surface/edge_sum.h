@@ -15,14 +15,14 @@ class EdgeSum {
   /// Adds the edges of a triangle. Add each triangle once, all in the same frame, with +0 for
   /// zeros.
   void add(const Triangle& triangle);
+  /// Adds one edge of a triangle, which runs from `from` to `to`.
+  void add_edge(const Point& from, const Point& to);
   /// Adds the edges that were added to another sum.
   void add(const EdgeSum& other);
 
   [[nodiscard]] bool is_watertight() const { return low_ == 0 && high_ == 0; }
 
  private:
-  void add_edge(const Point& from, const Point& to);
-
   std::uint64_t low_ = 0, high_ = 0;  // modulo 2^128
 };
 

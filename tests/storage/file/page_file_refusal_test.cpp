@@ -325,5 +325,16 @@ TEST_F(PageFileRefusal, RecognisesADamagedPlanetreeFile) {
   expect_refused(image, ErrorCode::kDamaged, "neither");
 }
 
+TEST_F(PageFileRefusal, RefusesCountsThatContradictEachOther) {
+  expect_model_refused([](ModelRecord& m) { m.triangle_count = 0; }, "no triangle");
+  expect_model_refused([](ModelRecord& m) { m.node_count = 0; }, "counts of nodes");
+  expect_model_refused([](ModelRecord& m) { m.triangle_count = 16; }, "counts of nodes");
+  expect_model_refused([](ModelRecord& m) { m.block_count = 0; }, "counts of nodes");
+  expect_model_refused([](ModelRecord& m) { m.skipped_count = kNoTriangle; }, "overflow");
+  expect_model_refused([](ModelRecord& m) { m.skipped_count = 3; }, "first skipped");
+  expect_model_refused([](ModelRecord& m) { m.first_skipped = 3; }, "first skipped");
+  expect_model_refused([](ModelRecord& m) { m.sample_triangle = 20; }, "sample triangle");
+}
+
 }  // namespace
 }  // namespace planetree::storage

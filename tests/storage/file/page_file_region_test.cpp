@@ -72,7 +72,7 @@ TEST_F(PageFileRefusal, RefusesBadCores) {
     expect_model_refused([&](ModelRecord& m) { m.core_lower[axis] = 0; }, "core");
     expect_model_refused([&](ModelRecord& m) { m.core_upper[axis] = 0; }, "core");
   }
-  for (const std::uint64_t count : {std::uint64_t{12}, ~std::uint64_t{0}})
+  for (const std::uint64_t count : {std::uint64_t{20}, ~std::uint64_t{0}})
     expect_core_refused([&](ModelRecord& m) { m.stray_count = count; }, "strays");
   for (const double edge : {kNan, kInfinity, -1.0, 0x1.8p60})
     expect_core_refused([&](ModelRecord& m) { m.stray_edge = edge; }, "edge of strays");

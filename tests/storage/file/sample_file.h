@@ -27,7 +27,7 @@ inline Bytes sample_page(std::uint32_t page, std::size_t bytes, std::uint64_t se
 
 inline ModelRecord sample_model() {
   ModelRecord model{};
-  model.triangle_count = 12;
+  model.triangle_count = 20;
   model.first_skipped = kNoTriangle;
   model.vertex_count = 8;
   model.node_count = 1;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -17,7 +18,7 @@ std::vector<octree::Triangle> closed_faces() {
 
 bool finds_fault(const storage::ModelRecord& model, const std::vector<octree::Triangle>& faces) {
   EdgeCheck check(model);
-  for (const octree::Triangle& face : faces) check.add(face);
+  for (std::size_t i = 0; i < faces.size(); ++i) check.add(faces[i], i);
   return check.finding().has_value();
 }
 
@@ -48,6 +49,53 @@ TEST(EdgeCheck, FindsAnOpenSurfaceDeclaredWatertight) {
   faces = closed_faces();
   faces.push_back(faces[0]);
   EXPECT_TRUE(finds_fault({}, faces));
+}
+
+/// Three faces of a closed surface, and a header that lists the edges that the fourth would have.
+storage::ModelRecord model_of_hole() {
+  storage::ModelRecord model{};
+  model.triangle_count = 3;
+  model.unbalanced_edge_count = 3;
+  const double from[3][3] = {{1, 0, 0}, {0, 0, 1}, {0, 0, 0}};
+  const double to[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
+  const std::uint64_t triangle[3] = {0, 2, 1};
+  const unsigned order[3] = {0, 2, 1};
+  for (unsigned i = 0; i < 3; ++i) {
+    storage::UnbalancedEdge& edge = model.unbalanced_edge[i];
+    std::copy_n(from[order[i]], 3, edge.from);
+    std::copy_n(to[order[i]], 3, edge.to);
+    edge.triangle = triangle[order[i]];
+    edge.along = 1;
+  }
+  return model;
+}
+
+TEST(EdgeCheck, AcceptsTheEdgesOfAHole) {
+  std::vector<octree::Triangle> faces = closed_faces();
+  faces.pop_back();
+  EXPECT_FALSE(finds_fault(model_of_hole(), faces));
+}
+
+TEST(EdgeCheck, FindsAWrongListOfEdges) {
+  std::vector<octree::Triangle> faces = closed_faces();
+  faces.pop_back();
+  storage::ModelRecord model = model_of_hole();
+  std::swap(model.unbalanced_edge[0], model.unbalanced_edge[1]);
+  EXPECT_TRUE(finds_fault(model, faces));
+  model = model_of_hole();
+  model.unbalanced_edge[2].triangle = 1;
+  EXPECT_TRUE(finds_fault(model, faces));
+  model = model_of_hole();
+  std::swap(model.unbalanced_edge[0].from, model.unbalanced_edge[0].to);
+  std::swap(model.unbalanced_edge[0].along, model.unbalanced_edge[0].against);
+  EXPECT_TRUE(finds_fault(model, faces));
+  model = model_of_hole();
+  model.unbalanced_edge_count = 4;
+  EXPECT_TRUE(finds_fault(model, faces));
+  model = model_of_hole();
+  model.unbalanced_edge_count = 2;
+  model.unbalanced_edge[2] = {};
+  EXPECT_TRUE(finds_fault(model, faces));
 }
 
 }  // namespace

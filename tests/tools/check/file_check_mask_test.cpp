@@ -222,7 +222,7 @@ TEST_F(FileCheckOfMasks, FindsASecondRoot) {
     ++page.head.plain_count;
     ++page.head.root_count;
   };
-  EXPECT_EQ(codes_of_change(tetrahedron(), is_first, add_root, false), Codes{"SUBTREE_UNLINKED"});
+  EXPECT_EQ(codes_of_change(tetrahedron(), is_first, add_root, false), Codes{"PAGE_STRUCTURE"});
 }
 
 // Twenty nodes, each the child of the one before.

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "planetree/contact.h"
+#include "planetree/types.h"
+#include "query/serve/batch_order.h"
+
+namespace planetree::query {
+
+class ProbeState;
+
+/// Gets pages that the queries of a batch lack from the server of a remote model, before the
+/// queries run. Each round gets the first page that each query lacks for its distance and for its
+/// side, with requests at once. So a batch waits for a round trip for each level of the trees, not
+/// for each page.
+///
+/// threads  that of the probe
+class BatchPrefetch {
+ public:
+  /// Number of queries that are looked at together.
+  /// Few, so that the clusters that they need fit in memory.
+  static constexpr std::size_t kQueries = 64;
+
+  /// probe, queries, order  must outlive this
+  /// options                of the batch; `wait` is ignored
+  BatchPrefetch(ProbeState& probe, std::span<const Vec3> queries, const BatchOrder& order,
+                const QueryOptions& options) noexcept
+      : probe_(probe), queries_(queries), order_(order), options_(options) {
+    options_.wait = Wait::kNever;
+  }
+
+  /// Whether it is of use for a batch: the model is remote, and the queries wait for pages.
+  static bool helps(const ProbeState& probe, const QueryOptions& options) noexcept;
+
+  /// Gets the pages of the queries [first, end) of the order, at most kQueries. Does nothing after
+  /// a page that the server did not give.
+  void run(std::size_t first, std::size_t end) noexcept;
+
+  /// Whether a page did not come in time.
+  bool is_late() const noexcept { return is_late_; }
+
+ private:
+  static constexpr unsigned kMaxRounds = 6;
+  // Pages of one round. The frames and the clusters in memory must hold them.
+  static constexpr std::size_t kMaxPages = 64;
+
+  std::size_t find_missing(std::size_t first, std::size_t end,
+                           std::span<std::uint32_t> pages) noexcept;
+  bool run_round(std::size_t first, std::size_t end) noexcept;
+
+  ProbeState& probe_;
+  const std::span<const Vec3> queries_;
+  const BatchOrder& order_;
+  QueryOptions options_;
+  bool is_late_ = false;
+};
+
+}  // namespace planetree::query
