@@ -57,8 +57,8 @@ class MaskProof {
   /// The winding number at a corner. Empty if pages cannot be read.
   std::optional<std::int64_t> winding(const octree::GridCell& cell, unsigned corner);
   std::optional<std::int64_t> count_winding(const octree::Point& point);
-  /// The same in the file of a region: along a segment that is beyond no wall, to the outside or, if
-  /// all sides are walls, to the region's first corner.
+  /// The same in the file of a region: along a segment that is beyond no wall, to the outside or,
+  /// if all sides are walls, to the region's first corner.
   std::optional<std::int64_t> count_along_walls(const octree::Point& point);
   /// Those of the surface; caps_touching() returns those of the caps.
   std::vector<octree::Triangle> triangles_touching(const octree::GridCell& cell);
