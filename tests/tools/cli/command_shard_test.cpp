@@ -81,7 +81,8 @@ TEST_F(CommandShard, RefusesArgumentsOfOtherSteps) {
 TEST_F(CommandShard, NamesTheFileOfAnError) {
   Outcome outcome = shard({"map", "job", "0"});
   EXPECT_EQ(outcome.status, 1);
-  EXPECT_TRUE(outcome.errors.starts_with("planetree: job/plan: no plan; run 'planetree shard plan "))
+  EXPECT_TRUE(
+      outcome.errors.starts_with("planetree: job/plan: no plan; run 'planetree shard plan "))
       << outcome.errors;
   ASSERT_EQ(plan().status, 0);
   outcome = shard({"map", "job", "2"});
