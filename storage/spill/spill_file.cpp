@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "storage/spill/result_file.h"
 #include "storage/system/file_error.h"
 
 namespace planetree::storage {

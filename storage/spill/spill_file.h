@@ -12,11 +12,12 @@
 #include <vector>
 
 #include "planetree/error.h"
-#include "storage/spill/result_file.h"
 #include "storage/system/file_calls.h"
 #include "storage/system/file_handle.h"
 
 namespace planetree::storage {
+
+class ResultFile;
 
 /// Temporary bytes of a build: in memory up to a limit, then in a file. The file is created when it
 /// is first needed and has no name, so that the system removes it however the process ends. A
