@@ -19,7 +19,7 @@ struct ObjectIdentity {
   /// Whether the server says by which a later object could be told from this one.
   bool has_validator() const noexcept { return !etag.empty() || !last_modified.empty(); }
   /// Whether the entity tag stands for equal bytes. A weak one does not.
-  bool has_strong_etag() const noexcept { return etag.starts_with('"'); }
+  bool has_strong_etag() const noexcept { return etag.starts_with(kQuote); }
   /// Whether a reply is one of another object.
   bool differs(const ReplyHead& head) const noexcept {
     if (head.range() && head.range()->total != size_bytes) return true;

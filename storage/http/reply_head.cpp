@@ -39,11 +39,11 @@ bool take(std::string_view& text, char expected) noexcept {
 // An entity tag is sent back to the server, so that it must not be able to end the line.
 bool is_etag(std::string_view value) noexcept {
   if (value.starts_with("W/")) value.remove_prefix(2);
-  if (value.size() < 2 || value.front() != '"' || value.back() != '"') return false;
+  if (value.size() < 2 || value.front() != kQuote || value.back() != kQuote) return false;
   value = value.substr(1, value.size() - 2);
   return std::ranges::all_of(value, [](char c) {
     const auto byte = static_cast<unsigned char>(c);
-    return byte > 0x20 && byte != '"' && byte != 0x7f;
+    return byte > 0x20 && byte != kQuote && byte != 0x7f;
   });
 }
 

@@ -7,6 +7,9 @@
 
 namespace planetree::storage {
 
+/// The quotation mark around an entity tag.
+inline constexpr char kQuote = 0x22;
+
 /// A Content-Range field: `bytes FIRST-LAST/TOTAL`.
 struct ContentRange {
   std::uint64_t first = 0;

@@ -40,6 +40,9 @@ storage::ModelRecord describe(const octree::SampleTree& sample) {
   model.stray_count = sample.mesh.frame.stray_count;
   model.stray_edge = sample.mesh.frame.stray_edge;
   model.sample_triangle = info.sample_triangle;
+  // Indices before the first triangle are those of skipped records.
+  model.skipped_count = info.sample_triangle;
+  if (model.skipped_count > 0) model.first_skipped = 0;
   model.scale_exponent = sample.mesh.frame.scale_exponent;
   model.vertex_kind =
       sample.shape.float64 ? storage::VertexKind::kFloat64 : storage::VertexKind::kFloat32;
