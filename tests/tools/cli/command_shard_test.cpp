@@ -80,7 +80,7 @@ TEST_F(CommandShard, RefusesArgumentsOfOtherSteps) {
 
 TEST_F(CommandShard, NamesTheFileOfAnError) {
   Outcome outcome = shard({"map", "job", "0"});
-  EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(outcome.status, 2);
   EXPECT_TRUE(
       outcome.errors.starts_with("planetree: job/plan: no plan; run 'planetree shard plan "))
       << outcome.errors;
