@@ -33,7 +33,6 @@ Result<SpillRuns::Extent> SpillRuns::add(std::vector<std::byte> records) {
 
 void SpillRuns::add_extent(Extent extent) {
   if (extent.size == 0) return;
-  assert(extent.offset + extent.size * record_bytes_ <= file_.size_bytes());
   assert(extent.marks.size() == mark_count(extent.size));
   const std::lock_guard lock(adding_);
   size_ += extent.size;
