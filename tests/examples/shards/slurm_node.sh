@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs a command while a Slurm of one node works, all of it in a temporary folder: munged, slurmctld
 # and slurmd. Exits with 77, for "skipped", where Debian's packages slurmctld, slurmd, slurm-client
-# and munge are not installed, or the user is not root.
+# and munge are not installed or do not start, or the user is not root.
 set -euo pipefail
 
 for program in munged slurmctld slurmd sbatch; do
@@ -49,13 +49,19 @@ PartitionName=all Nodes=$host Default=YES MaxTime=INFINITE State=UP
 TEXT
 export SLURM_CONF=$folder/slurm.conf
 munged --force --key-file="$folder/key" --socket="$folder/munge.socket" \
-  --pid-file="$folder/munged.pid" --log-file="$folder/munged.log" --seed-file="$folder/seed"
-slurmctld
-slurmd -N "$host"
+  --pid-file="$folder/munged.pid" --log-file="$folder/munged.log" --seed-file="$folder/seed" ||
+  { echo "munged does not start here"; exit 77; }
+slurmctld || true
+slurmd -N "$host" || true
+ready=
 for ((i = 0; i < 100; ++i)); do
-  if sinfo --noheader --format=%t 2> /dev/null | grep -qE '^(idle|mix|alloc)$'; then break; fi
+  if sinfo --noheader --format=%t 2> /dev/null | grep -qE '^(idle|mix|alloc)$'; then
+    ready=1
+    break
+  fi
   sleep 0.1
 done
+[[ -n $ready ]] || { tail -n 20 "$folder"/*.log; echo "Slurm does not start here"; exit 77; }
 status=0
 "$@" || status=$?
 if [[ $status -ne 0 ]]; then tail -n 20 "$folder"/*.log; fi
