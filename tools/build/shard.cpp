@@ -115,8 +115,8 @@ void add_shard(CLI::App& app, Console& console, std::function<int()>& action) {
   subcommand.require(subcommand.word(
       "step", {"plan", "map", "reduce", "merge"},
       [&arguments](const std::string& step) { arguments.step = step; },
-      "plan: read the mesh IN and write the job -o JOB, a directory that all machines share. map: "
-      "sort part SHARD of the triangles. reduce, after all of map: build part SHARD of the tree. "
+      "plan: read the mesh PATH and write the job -o JOB, a directory that all machines share. "
+      "map: sort part N of the triangles. reduce, after all of map: build part N of the tree. "
       "merge, after all of reduce: write -o OUT.ptree, with the bytes that planetree build writes. "
       "A step can be killed and run again; one that was done does nothing"));
   subcommand.require(subcommand.path("path", "PATH", arguments.path,
