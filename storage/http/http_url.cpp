@@ -2,22 +2,14 @@
 
 #include <algorithm>
 
+#include "storage/http/letter_case.h"
+
 namespace planetree::storage {
-namespace {
-
-// Whether a text starts with `prefix`, which is in small letters, in any case.
-bool starts_with_any_case(std::string_view text, std::string_view prefix) noexcept {
-  return text.size() >= prefix.size() &&
-         std::equal(prefix.begin(), prefix.end(), text.begin(), [](char wanted, char given) {
-           return wanted ==
-                  (given >= 'A' && given <= 'Z' ? static_cast<char>(given | 0x20) : given);
-         });
-}
-
-}  // namespace
 
 bool is_http_url(std::string_view path) noexcept {
-  return starts_with_any_case(path, "http://") || starts_with_any_case(path, "https://");
+  const std::string_view scheme = path.substr(0, path.find("//"));
+  return scheme.size() < path.size() &&
+         (equals_in_any_case(scheme, "http:") || equals_in_any_case(scheme, "https:"));
 }
 
 std::string shown_url(std::string_view url) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "storage/http/letter_case.h"
+
 namespace planetree::storage {
 namespace {
 
@@ -12,12 +14,6 @@ std::string_view trimmed(std::string_view text) noexcept {
   const std::size_t first = text.find_first_not_of(kBlanks);
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
-
-bool is_field(std::string_view given, std::string_view name) noexcept {
-  return std::ranges::equal(given, name, [](char a, char b) {
-    return (a >= 'A' && a <= 'Z' ? static_cast<char>(a | 0x20) : a) == b;
-  });
 }
 
 // Reads a number at the start of a text and removes it. Nothing else but digits counts.
@@ -63,7 +59,8 @@ int status_in(std::string_view line) noexcept {
 std::optional<ContentRange> ContentRange::parse(std::string_view value) noexcept {
   constexpr std::string_view kUnit = "bytes";
   value = trimmed(value);
-  if (value.size() < kUnit.size() || !is_field(value.substr(0, kUnit.size()), kUnit)) return {};
+  if (value.size() < kUnit.size() || !equals_in_any_case(value.substr(0, kUnit.size()), kUnit))
+    return {};
   value = value.substr(kUnit.size());
   if (!take(value, ' ')) return {};
   value = trimmed(value);
@@ -87,11 +84,12 @@ void ReplyHead::add_line(std::string_view line) {
   const std::string_view name = line.substr(0, colon);
   std::string_view value = trimmed(line.substr(colon + 1));
   if (value.size() > kMaxFieldBytes) return;
-  if (is_field(name, "etag") && is_etag(value)) etag_ = value;
-  if (is_field(name, "last-modified") && is_printable(value)) last_modified_ = value;
-  if (is_field(name, "content-range")) range_ = ContentRange::parse(value);
-  if (is_field(name, "content-encoding")) is_encoded_ = !value.empty() && value != "identity";
-  if (is_field(name, "retry-after") && !take_number(value, retry_after_seconds_))
+  if (equals_in_any_case(name, "etag") && is_etag(value)) etag_ = value;
+  if (equals_in_any_case(name, "last-modified") && is_printable(value)) last_modified_ = value;
+  if (equals_in_any_case(name, "content-range")) range_ = ContentRange::parse(value);
+  if (equals_in_any_case(name, "content-encoding"))
+    is_encoded_ = !value.empty() && value != "identity";
+  if (equals_in_any_case(name, "retry-after") && !take_number(value, retry_after_seconds_))
     retry_after_seconds_ = 0;
 }
 
