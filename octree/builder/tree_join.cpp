@@ -37,9 +37,11 @@ Result<void> TreeBuild::join_surface(const std::vector<BuiltPart>& parts) {
                 files_.triangles(), files_.pages());
   std::vector<ChunkResults> results;
   for (const BuiltPart& part : parts) {
-    results.push_back(part.results);
-    results.back().chunks.clear();
-    results.back().edges = moved(part.results.edges, files_.scratch().attach(part.file));
+    const std::uint64_t offset = files_.scratch().attach(part.file);
+    results.push_back({.chunks = {},
+                       .edges = moved(part.results.edges, offset),
+                       .areas = part.results.areas,
+                       .winding = part.results.winding});
   }
   const SurfacePass pass{model_.frame, *whole_, model_.above.chunks, nullptr,
                          options_.has_side_layer() ? &*caps_ : nullptr};

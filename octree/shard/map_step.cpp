@@ -85,12 +85,12 @@ class MapStep {
 
   // Checks before and after the reading that the input is the one that was planned.
   Result<std::uint64_t> read_checked() {
-    if (const auto checked = check_input(plan_.plan, options_, seams_); !checked)
-      return checked.error();
+    const auto before = check_input(plan_.plan, options_, seams_);
+    if (!before) return before.error();
     const auto triangles = read();
     if (!triangles) return triangles;
-    const auto checked = check_input(plan_.plan, options_, seams_);
-    return checked ? triangles : checked.error();
+    const auto unchanged = check_unchanged(plan_.plan, *before, options_, seams_);
+    return unchanged ? triangles : unchanged.error();
   }
 
   // Returns the number of triangles.

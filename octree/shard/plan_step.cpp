@@ -122,11 +122,7 @@ class PlanStep {
     const auto content = content_of(path_, seams_.calls);
     if (!content) return content.error();
     plan.content = *content;
-    const auto after = BuildIdentity::of(input_, options_, seams_);
-    if (!after) return after.error();
-    if (*after == plan.identity) return {};
-    return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
-                      "the input changed while it was read; plan again when it is complete");
+    return check_unchanged(plan, plan.identity, options_, seams_);
   }
 
   const std::filesystem::path& path_;

@@ -18,8 +18,7 @@ auto run_step(const fs::path& directory, const BuildOptions& options, const Step
   auto report = octree::call_builder([&] {
     const octree::BuildOptions inner = octree::inner_options(options);
     using Outcome = decltype(step(job, inner, observer, seams));
-    const fs::path temporary = inner.spill_directory(directory / "plan");
-    if (!options.temp_directory.empty())
+    if (const fs::path& temporary = options.temp_directory; !temporary.empty())
       if (const auto checked = octree::check_spill_directory(temporary); !checked)
         return Outcome(observer.refuse(temporary, checked.error()));
     return step(job, inner, observer, seams);

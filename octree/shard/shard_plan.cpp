@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <tuple>
 
 #include "octree/builder/mesh/side_files.h"
 #include "storage/system/file_error.h"
@@ -32,13 +31,6 @@ Result<void> hash_file(const std::filesystem::path& path, storage::FileCalls& ca
   const std::uint64_t length = *size;
   hasher.add(std::as_bytes(std::span(&length, 1)));
   return {};
-}
-
-auto options_of(const ShardPlan& plan) {
-  const BuildIdentity& i = plan.identity;
-  return std::tie(plan.shards, i.version, i.page_bytes, i.with_sides, i.attributes,
-                  i.value_property, i.strict, i.float64, i.chunk_triangles, i.sector_triangles,
-                  plan.layers, plan.keep, plan.side, plan.metadata);
 }
 
 Error changed(const char* what) {
@@ -80,8 +72,9 @@ ShardPlan ShardPlan::of(const std::filesystem::path& input, std::uint32_t shards
 }
 
 bool ShardPlan::is_like(const ShardPlan& other) const {
-  return input == other.input && identity == other.identity &&
-         options_of(*this) == options_of(other);
+  return shards == other.shards && input == other.input && identity == other.identity &&
+         layers == other.layers && keep == other.keep && side == other.side &&
+         metadata == other.metadata;
 }
 
 std::uint64_t first_of_part(std::uint64_t part, std::uint64_t count, std::uint64_t parts) {
@@ -99,17 +92,25 @@ Result<storage::Hash128> content_of(const std::filesystem::path& input, storage:
   return hasher.value();
 }
 
-Result<void> check_input(const ShardPlan& plan, const BuildOptions& options,
-                         const BuildSeams& seams) {
+Result<BuildIdentity> check_input(const ShardPlan& plan, const BuildOptions& options,
+                                  const BuildSeams& seams) {
   const std::filesystem::path input = plan.input;
-  const auto now = BuildIdentity::of(input, options, seams);
-  if (!now) return now.error();
-  if (*now == plan.identity) return {};
+  auto now = BuildIdentity::of(input, options, seams);
+  if (!now || *now == plan.identity) return now;
   if (now->version != plan.identity.version) return changed("this release differs from the one");
   if (now->input_bytes != plan.identity.input_bytes) return changed("the input has changed");
   const auto content = content_of(input, seams.calls);
   if (!content) return content.error();
-  return *content == plan.content ? Result<void>() : changed("the input has changed");
+  return *content == plan.content ? now : changed("the input has changed");
+}
+
+Result<void> check_unchanged(const ShardPlan& plan, const BuildIdentity& before,
+                             const BuildOptions& options, const BuildSeams& seams) {
+  const auto after = BuildIdentity::of(std::filesystem::path(plan.input), options, seams);
+  if (!after) return after.error();
+  if (*after == before) return {};
+  return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
+                    "the input changed while it was read; plan again when it is complete");
 }
 
 }  // namespace planetree::octree

@@ -46,10 +46,14 @@ std::uint64_t first_of_part(std::uint64_t part, std::uint64_t count, std::uint64
 Result<storage::Hash128> content_of(const std::filesystem::path& input, storage::FileCalls& calls);
 
 /// Checks that the input is the one that was planned. Where it looks like another file, as a copy
-/// on another machine does, all of it is hashed.
+/// on another machine does, all of it is hashed. Returns what it looks like now.
 /// errors  kBadInput: it has changed; those of content_of().
-Result<void> check_input(const ShardPlan& plan, const BuildOptions& options,
-                         const BuildSeams& seams);
+Result<BuildIdentity> check_input(const ShardPlan& plan, const BuildOptions& options,
+                                  const BuildSeams& seams);
+/// Checks that the input still looks as before it was read.
+/// errors  kBadInput: it does not; those of BuildIdentity::of().
+Result<void> check_unchanged(const ShardPlan& plan, const BuildIdentity& before,
+                             const BuildOptions& options, const BuildSeams& seams);
 
 template <class Record, IsA<ShardPlan> Value>
 void fields(Record& record, Value& plan) {
