@@ -6,7 +6,6 @@
 #include "tools/build/build_meter.h"
 #include "tools/build/build_options.h"
 #include "tools/build/build_report.h"
-#include "tools/cli/file_digest.h"
 #include "tools/cli/subcommand_options.h"
 
 namespace planetree::tools {
@@ -14,20 +13,7 @@ namespace planetree::tools {
 int run_build(const BuildArguments& arguments, Console& console) {
   BuildMeter meter(arguments.output, arguments.quiet, arguments.json, console);
   const auto report = build(arguments.input, arguments.output, meter.observed(arguments.options));
-  meter.finish();
-  if (!report) return console.fail(meter.failed_at().string(), report.error());
-  const double seconds = meter.seconds();
-  warn_of_mesh(arguments.input, *report, console);
-  const BuildRecord record{arguments.input, arguments.output, *report, seconds,
-                           meter.seconds_by_phase()};
-  if (!arguments.json) {
-    console.print(plain_report(record));
-    return console.finish(kDone);
-  }
-  const auto sha256 = sha256_of_file(arguments.output);
-  if (!sha256) return console.fail(arguments.output.string(), sha256.error());
-  console.print(json_report(record, *sha256));
-  return console.finish(kDone);
+  return report_build(report, meter, {arguments.input, arguments.output}, arguments.json, console);
 }
 
 void add_build(CLI::App& app, Console& console, std::function<int()>& action) {

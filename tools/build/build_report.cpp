@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+#include <string>
+
 #include "tools/cli/attribute_option.h"
+#include "tools/cli/file_digest.h"
 #include "tools/cli/file_text.h"
 #include "tools/cli/layer_words.h"
 #include "tools/cli/size_text.h"
@@ -11,11 +15,18 @@
 namespace planetree::tools {
 namespace {
 
+/// A build that has ended.
+struct BuildRecord {
+  const std::filesystem::path& input;
+  const std::filesystem::path& output;
+  const BuildReport& built;
+  double seconds = 0;                              ///< of the whole build, above 0
+  const nlohmann::ordered_json& seconds_by_phase;  ///< in the order of phases
+};
+
 double bytes_per_triangle(const BuildReport& built) {
   return static_cast<double>(built.file_bytes) / static_cast<double>(built.triangles);
 }
-
-}  // namespace
 
 std::string json_report(const BuildRecord& record, const std::string& sha256) {
   const BuildReport& built = record.built;
@@ -73,6 +84,25 @@ std::string plain_report(const BuildRecord& record) {
       short_bytes(built.file_bytes), grouped_count(built.pages), bytes_per_triangle(built),
       record.seconds, short_count(static_cast<double>(built.input_triangles) / record.seconds),
       short_bytes(built.peak_resident_bytes));
+}
+
+}  // namespace
+
+int report_build(const Result<BuildReport>& built, BuildMeter& meter, const BuildFiles& files,
+                 bool json, Console& console) {
+  meter.finish();
+  if (!built) return console.fail(meter.failed_at().string(), built.error());
+  const double seconds = meter.seconds();
+  warn_of_mesh(files.input, *built, console);
+  const BuildRecord record{files.input, files.output, *built, seconds, meter.seconds_by_phase()};
+  if (!json) {
+    console.print(plain_report(record));
+    return console.finish(kDone);
+  }
+  const auto sha256 = sha256_of_file(files.output);
+  if (!sha256) return console.fail(files.output.string(), sha256.error());
+  console.print(json_report(record, *sha256));
+  return console.finish(kDone);
 }
 
 }  // namespace planetree::tools

@@ -1,27 +1,23 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
-#include <string>
 
 #include "planetree/build.h"
+#include "planetree/error.h"
+#include "tools/build/build_meter.h"
+#include "tools/cli/subcommand.h"
 
 namespace planetree::tools {
 
-/// A build that has ended, for its report.
-struct BuildRecord {
-  const std::filesystem::path& input;
+/// What a build reads and writes.
+struct BuildFiles {
+  const std::filesystem::path& input;  ///< the mesh, or the job
   const std::filesystem::path& output;
-  const BuildReport& built;
-  double seconds = 0;                              ///< of the whole build, above 0
-  const nlohmann::ordered_json& seconds_by_phase;  ///< in the order of phases
 };
 
-/// Reports a build as one line of JSON.
-///
-/// sha256  of the file
-std::string json_report(const BuildRecord& record, const std::string& sha256);
-/// Reports a build as a line of text.
-std::string plain_report(const BuildRecord& record);
+/// Reports a build that has ended: its error, or warnings and then one line of text or of JSON,
+/// which has the SHA-256 of the file. Returns the exit status.
+int report_build(const Result<BuildReport>& built, BuildMeter& meter, const BuildFiles& files,
+                 bool json, Console& console);
 
 }  // namespace planetree::tools

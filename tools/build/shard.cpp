@@ -9,7 +9,6 @@
 #include "tools/build/build_options.h"
 #include "tools/build/build_report.h"
 #include "tools/build/shard_report.h"
-#include "tools/cli/file_digest.h"
 #include "tools/cli/size_text.h"
 #include "tools/cli/subcommand_options.h"
 
@@ -52,20 +51,7 @@ int run_merge(const ShardArguments& arguments, Console& console) {
   BuildMeter meter(arguments.output, arguments.quiet, arguments.json, console);
   const auto report =
       merge_shards(arguments.path, arguments.output, meter.observed(arguments.options));
-  meter.finish();
-  if (!report) return console.fail(meter.failed_at().string(), report.error());
-  const double seconds = meter.seconds();
-  warn_of_mesh(arguments.path, *report, console);
-  const BuildRecord record{arguments.path, arguments.output, *report, seconds,
-                           meter.seconds_by_phase()};
-  if (!arguments.json) {
-    console.print(plain_report(record));
-    return console.finish(kDone);
-  }
-  const auto sha256 = sha256_of_file(arguments.output);
-  if (!sha256) return console.fail(arguments.output.string(), sha256.error());
-  console.print(json_report(record, *sha256));
-  return console.finish(kDone);
+  return report_build(report, meter, {arguments.path, arguments.output}, arguments.json, console);
 }
 
 // Whether an option is given that only the plan has.
