@@ -21,10 +21,12 @@ class ShardSteps : public ShardedBuild {
     write(soup);
     expected_ = whole();
   }
-  static std::string text_of(const Error& error) { return error.text; }
-  void expect_text(const Error& error, ErrorCode code, const std::string& part) {
-    EXPECT_EQ(error.code, code) << error.text;
-    EXPECT_NE(text_of(error).find(part), std::string::npos) << error.text;
+  template <class Value>
+  void expect_text(const Result<Value>& refused, ErrorCode code, const std::string& part) {
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, code) << refused.error().text;
+    EXPECT_NE(std::string(refused.error().text).find(part), std::string::npos)
+        << refused.error().text;
   }
   void touch_mesh() const { storage::write_bytes(mesh_, storage::read_bytes(mesh_)); }
 
@@ -49,21 +51,21 @@ TEST_F(ShardSteps, DoNothingTheSecondTime) {
 }
 
 TEST_F(ShardSteps, SayWhichStepIsMissing) {
-  expect_text(map(0).error(), ErrorCode::kNotFound, "planetree shard plan MESH -o JOB");
-  expect_text(merge().error(), ErrorCode::kNotFound, "planetree shard plan MESH -o JOB");
+  expect_text(map(0), ErrorCode::kNotFound, "planetree shard plan MESH -o JOB");
+  expect_text(merge(), ErrorCode::kNotFound, "planetree shard plan MESH -o JOB");
   ASSERT_TRUE(plan(2));
   ASSERT_TRUE(map(0));
-  expect_text(reduce(0).error(), ErrorCode::kNotFound, "'planetree shard map JOB 1'");
+  expect_text(reduce(0), ErrorCode::kNotFound, "'planetree shard map JOB 1'");
   ASSERT_TRUE(map(1));
   ASSERT_TRUE(reduce(0));
-  expect_text(merge().error(), ErrorCode::kNotFound, "'planetree shard reduce JOB 1'");
+  expect_text(merge(), ErrorCode::kNotFound, "'planetree shard reduce JOB 1'");
   EXPECT_FALSE(std::filesystem::exists(output_));
 }
 
 TEST_F(ShardSteps, RefuseANumberThatThePlanDoesNotHave) {
   ASSERT_TRUE(plan(2));
-  expect_text(map(2).error(), ErrorCode::kBadArgument, "the plan has 2, from 0 to 1");
-  expect_text(reduce(2).error(), ErrorCode::kBadArgument, "the plan has 2, from 0 to 1");
+  expect_text(map(2), ErrorCode::kBadArgument, "the plan has 2, from 0 to 1");
+  expect_text(reduce(2), ErrorCode::kBadArgument, "the plan has 2, from 0 to 1");
 }
 
 TEST_F(ShardSteps, RefuseAMeshThatChanged) {
@@ -72,7 +74,7 @@ TEST_F(ShardSteps, RefuseAMeshThatChanged) {
   soup.resize(soup.size() - 5);
   soup[50][0].x *= 0.5;
   write(soup);
-  expect_text(map(0).error(), ErrorCode::kBadInput, "the input has changed since");
+  expect_text(map(0), ErrorCode::kBadInput, "the input has changed since");
   EXPECT_EQ(recorder_.failed->second, mesh_);
   EXPECT_FALSE(std::filesystem::exists(file_of(ShardKind::kSorted, 0)));
 }
@@ -88,14 +90,14 @@ TEST_F(ShardSteps, RefuseResultsOfAnotherPlan) {
   run_all(2);
   options_.page_bytes = 8192;
   ASSERT_TRUE(plan(2));
-  expect_text(reduce(0).error(), ErrorCode::kBadInput, "'planetree shard map JOB 0' again");
-  expect_text(merge().error(), ErrorCode::kBadInput, "'planetree shard map JOB 0' again");
+  expect_text(reduce(0), ErrorCode::kBadInput, "'planetree shard map JOB 0' again");
+  expect_text(merge(), ErrorCode::kBadInput, "'planetree shard map JOB 0' again");
   const auto again = map(0);
   ASSERT_TRUE(again);
   EXPECT_FALSE(again->was_done);
-  expect_text(reduce(0).error(), ErrorCode::kBadInput, "'planetree shard map JOB 1' again");
+  expect_text(reduce(0), ErrorCode::kBadInput, "'planetree shard map JOB 1' again");
   ASSERT_TRUE(map(1));
-  expect_text(merge().error(), ErrorCode::kBadInput, "'planetree shard reduce JOB 0' again");
+  expect_text(merge(), ErrorCode::kBadInput, "'planetree shard reduce JOB 0' again");
   const storage::Bytes expected = whole();
   run_all_after_plan(2);
   EXPECT_EQ(built(), expected);
@@ -106,8 +108,8 @@ TEST_F(ShardSteps, RefuseResultsOfOtherParts) {
   // A part of the same plan under the name of another.
   std::filesystem::copy_file(file_of(ShardKind::kSorted, 1), file_of(ShardKind::kSorted, 0),
                              std::filesystem::copy_options::overwrite_existing);
-  expect_text(reduce(0).error(), ErrorCode::kBadInput, "'planetree shard map JOB 0' again");
-  expect_text(merge().error(), ErrorCode::kBadInput, "'planetree shard map JOB 0' again");
+  expect_text(reduce(0), ErrorCode::kBadInput, "'planetree shard map JOB 0' again");
+  expect_text(merge(), ErrorCode::kBadInput, "'planetree shard map JOB 0' again");
 }
 
 // Every step, killed before any of its system calls and run again.
