@@ -17,7 +17,7 @@
 #include "query/serve/page_accessor.h"
 #include "query/serve/trace_decoder.h"
 #include "storage/file/metadata.h"
-#include "storage/http/open_source.h"
+#include "storage/set/open_model.h"
 
 namespace planetree {
 namespace query {
@@ -54,14 +54,15 @@ unsigned thread_probes(const OpenOptions& options) {
 // Model::triangles() has a reader of its own, without a probe.
 unsigned finders(const OpenLayers& opened) { return opened.has_attributes() ? 1 : 0; }
 
-// Opens the file or the URL.
+// Opens a file, a set or a URL.
 Result<storage::PageFile> open_page_file(const std::filesystem::path& path,
                                          const OpenOptions& options, const ModelSeams& seams) {
-  storage::HttpOptions http;
-  http.cache_directory = options.http_cache;
-  http.cache_bytes = options.http_cache_bytes;
-  http.limits = seams.http_limits;
-  auto source = storage::open_source(path, http, seams.calls);
+  storage::ModelSourceOptions how;
+  how.http.cache_directory = options.http_cache;
+  how.http.cache_bytes = options.http_cache_bytes;
+  how.http.limits = seams.http_limits;
+  how.allows_missing_members = options.allow_missing_members;
+  auto source = storage::open_model_source(path, how, seams.calls);
   if (!source) return source.error();
   return storage::PageFile::open(std::move(*source));
 }

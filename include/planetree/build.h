@@ -196,6 +196,11 @@ struct BuildOptions {
   /// What the file says of the model; see Metadata. `generator` is set to the release of planetree
   /// unless it is given. A key with an empty value is left out.
   Metadata metadata;
+  /// 0: the output is one file. Else it is a set: its record, whose name ends in `.ptreeset`, and
+  /// beside it members of up to so many bytes, at least kMinMemberBytes. The members, joined, are
+  /// the file that 0 gives. They are longer if there would be more than 256, or if the directory of
+  /// the file is.
+  std::uint64_t member_bytes = 0;
   bool strict = false;   ///< a record that would be skipped is an error
   bool replace = false;  ///< an existing output may be replaced
 
@@ -217,6 +222,7 @@ struct BuildOptions {
 
   /// Minimum of `memory_bytes`; it suffices for one thread.
   static constexpr std::uint64_t kMinMemoryBytes = std::uint64_t{160} << 20;
+  static constexpr std::uint64_t kMinMemberBytes = 65536;  ///< minimum of `member_bytes`, except 0
   static constexpr std::uint32_t kMinPageBytes = 4096;    ///< minimum of `page_bytes`
   static constexpr std::uint32_t kMaxPageBytes = 262144;  ///< maximum of `page_bytes`
 };
@@ -267,14 +273,14 @@ struct BuildReport {
   bool watertight() const noexcept { return unbalanced_edges == 0; }
 };
 
-/// Builds the .ptree file of a mesh. The file appears under its name when it is complete. After an
+/// Builds the .ptree file of a mesh, or a set. It appears under its name when it is complete. After an
 /// error or a cancelled build an earlier file of that name is unchanged, and no new file is left,
 /// except for the checkpoint of BuildOptions::resume. The bytes of the file depend on the input,
 /// `page_bytes`, `box`, `side`, `layers`, `keep`, `value_property`, `float64`, `metadata`, and the
 /// releases of planetree and LZ4, and on nothing else.
 ///
 /// input    triangles in any order. Records that cannot be used are skipped and counted.
-/// output   the file. Its directory must exist.
+/// output   the file, or the record of the set. Its directory must exist.
 /// errors   kBadArgument: an option is out of range, no triangle touches the box, or `output` is
 ///          a directory or the input. kAlreadyExists: the file exists and `replace` is not set.
 ///          kNotFound: a file or directory does not exist. kPermission: it is not accessible.

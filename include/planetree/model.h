@@ -110,6 +110,12 @@ struct OpenOptions {
   /// that is opened with a lower limit shortens the file.
   std::uint64_t http_cache_bytes = std::uint64_t{1} << 30;
 
+  /// Whether a set may be opened of which members are missing: a part of a large model on a small
+  /// machine. Pages of missing members cannot be read: answers that need one are
+  /// Status::kDegraded, with intervals that hold, and all others are exact. The first two members
+  /// have to be there. Of a set on a server, members are opened when they are first read.
+  bool allow_missing_members = false;
+
   static constexpr unsigned kMaxProbes = 1024;       ///< limit of `max_probes`
   static constexpr unsigned kMaxFetchThreads = 64;   ///< limit of `fetch_threads`
   static constexpr unsigned kMaxBatchThreads = 256;  ///< limit of `batch_threads`
@@ -117,11 +123,11 @@ struct OpenOptions {
   static constexpr std::uint32_t kMaxPageTraceCapacity = std::uint32_t{1} << 24;
 };
 
-/// An opened .ptree file. Its contents do not change. Any number of threads may share a model, each
+/// An opened .ptree file, or an opened set of files. Its contents do not change. Any number of threads may share a model, each
 /// with a Probe of its own. A model can be moved; its probes and the reference that info() returned
 /// stay valid. The model, or the one it was moved to, must outlive its probes.
 ///
-/// The file must not be written to or truncated while it is open: pages read later then count as
+/// The files must not be written to or truncated while they are open: pages read later then count as
 /// damaged. It may be removed or replaced by another file, because the model keeps the one that it
 /// opened. A process made by fork() must not use the model, because the model's threads do not run
 /// there.
@@ -131,11 +137,12 @@ class PLANETREE_API Model {
   /// threads. If the side layer is opened, also reads the upper cells of the mask into the side
   /// grid. If the field layer is opened, also reads the field.
   ///
-  /// path     a regular file, or a URL that starts with `http://` or `https://`. A server must
-  /// serve
-  ///          ranges of bytes. Its model answers as one of the file does, bit for bit. Of a large
-  ///          one, neither the field nor the side grid is read at open. The budget then includes
-  ///          16.5 MiB for clusters and connections.
+  /// path     a regular file, or a URL that starts with `http://` or `https://`. If its name ends in
+  ///          `.ptreeset`, it is the record of a set. The members of a set are opened too; it
+  ///          answers as the one file does, bit for bit. A server must serve ranges of bytes; its
+  ///          model answers as one of the file does, bit for bit. Of a large one, neither the field
+  ///          nor the side grid is read at open. The budget then includes 16.5 MiB for clusters and
+  ///          connections.
   /// errors   kUnsupported: compiler options or the processor change floating-point results.
   ///          kBadArgument: an option is out of range. Both are found before the file is opened.
   ///          kNotFound, kPermission, kReadFailed: the file or the URL cannot be read.

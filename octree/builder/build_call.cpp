@@ -17,6 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 static_assert(planetree::BuildOptions::kMinMemoryBytes == BuildMemory::kMinBytes);
+static_assert(planetree::BuildOptions::kMinMemberBytes == BuildOptions::kMinMemberBytes);
 static_assert(planetree::BuildOptions::kMinPageBytes == storage::kMinPageBytes);
 static_assert(planetree::BuildOptions::kMaxPageBytes == storage::kMaxPageBytes);
 
@@ -128,6 +129,7 @@ BuildOptions inner_options(const planetree::BuildOptions& options) {
   inner.replace = options.replace;
   if (options.box) inner.box = {options.box->lower, options.box->upper};
   inner.resume = options.resume;
+  inner.member_bytes = options.member_bytes;
   inner.metadata = complete_metadata(options.metadata);
   return inner;
 }

@@ -2,8 +2,10 @@
 
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "octree/builder/mask/height_field_marks.h"
+#include "octree/builder/model_members.h"
 #include "octree/builder/tree/page_appender.h"
 #include "octree/geometry/area_sums.h"
 #include "octree/geometry/strict_math.h"
@@ -113,8 +115,10 @@ Result<storage::FileHeader> write_tree(const BuiltModel& built, const BuiltTree&
   if (!attribute_pages) return attribute_pages.error();
   const std::uint32_t first_mask_page = first_attribute_page + *attribute_pages;
   const std::uint32_t page_count = first_mask_page + mask_pages;
-  auto writer = storage::PageWriter::create(
-      output, page_count, storage::extensions_of(options.metadata), options.replace, calls);
+  auto destination = create_output({built.frame, pages, page_count}, output, options, calls);
+  if (!destination) return destination.error();
+  auto writer = storage::PageWriter::create(*std::move(destination), page_count,
+                                            storage::extensions_of(options.metadata));
   if (!writer) return writer.error();
   PageAppender appender(*writer, progress, page_count);
   // Triangles beyond a wall may touch the lines that prove a height field.

@@ -7,7 +7,7 @@
 #include "query/file/model_info.h"
 #include "query/file/scene_frames.h"
 #include "query/file/tree_header.h"
-#include "storage/http/open_source.h"
+#include "storage/set/open_model.h"
 
 namespace planetree::query {
 namespace {
@@ -38,7 +38,7 @@ Error no_memory() {
 Result<std::unique_ptr<SceneModel>> SceneModel::open(const std::filesystem::path& path,
                                                      const Choices& choices,
                                                      storage::FileCalls& calls) {
-  auto source = storage::open_source(path, {}, calls);
+  auto source = storage::open_model_source(path, {}, calls);
   if (!source) return source.error();
   auto file = storage::PageFile::open(std::move(*source));
   if (!file) return file.error();

@@ -14,13 +14,11 @@
 namespace planetree::storage {
 namespace {
 
-constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
-
 Error bad_argument(std::uint64_t page, const char* cause) noexcept {
   return make_error(ErrorCode::kBadArgument, page, Error::kNowhere, "%s", cause);
 }
 
-// Returns null, or what is wrong with the names.
+// Sorts the extensions. Returns null, or what is wrong with the names.
 const char* sort_by_name(std::vector<Extension>& extensions) {
   if (extensions.size() > kMaxExtensions) return "a file has at most 64 extensions";
   std::sort(extensions.begin(), extensions.end(),
@@ -34,24 +32,36 @@ const char* sort_by_name(std::vector<Extension>& extensions) {
   return nullptr;
 }
 
+Result<void> check_start(std::uint32_t page_count, std::vector<Extension>& extensions) {
+  if (page_count == 0)
+    return bad_argument(Error::kNowhere, "a file needs at least one page; give it a model");
+  if (const char* fault = sort_by_name(extensions)) return bad_argument(Error::kNowhere, fault);
+  return {};
+}
+
 }  // namespace
 
 Result<PageWriter> PageWriter::create(const std::filesystem::path& path, std::uint32_t page_count,
                                       std::vector<Extension> extensions, bool replace,
                                       FileCalls& calls) {
-  if (page_count == 0) {
-    return bad_argument(Error::kNowhere, "a file needs at least one page; give it a model");
-  }
-  if (const char* fault = sort_by_name(extensions)) return bad_argument(Error::kNowhere, fault);
-  Result<NewFile> file = NewFile::create(path, replace, calls);
-  if (!file) return file.error();
-  PageWriter writer(*std::move(file));
+  // Before the file is created.
+  if (const auto checked = check_start(page_count, extensions); !checked) return checked.error();
+  auto output = new_model_file(path, replace, calls);
+  if (!output) return output.error();
+  return create(*std::move(output), page_count, std::move(extensions));
+}
+
+Result<PageWriter> PageWriter::create(std::unique_ptr<ModelOutput> output, std::uint32_t page_count,
+                                      std::vector<Extension> extensions) {
+  if (const auto checked = check_start(page_count, extensions); !checked) return checked.error();
+  PageWriter writer(std::move(output));
   writer.page_count_ = page_count;
   writer.extensions_ = std::move(extensions);
   writer.entries_.reserve(page_count);
-  writer.buffer_.reserve(kBufferBytes);
+  writer.buffer_.reserve(ModelOutput::kMaxWriteBytes);
   writer.buffer_offset_ = directory_start(static_cast<std::uint32_t>(writer.extensions_.size())) +
                           DirectoryShape(page_count).bytes();
+  if (const auto begun = writer.output_->begin(writer.buffer_offset_); !begun) return begun.error();
   return writer;
 }
 
@@ -82,16 +92,16 @@ Result<void> PageWriter::check_next(std::uint64_t octcode, std::uint32_t raw_byt
 }
 
 Result<void> PageWriter::add_bytes(std::span<const std::byte> bytes) {
-  if (bytes.size() > kBufferBytes - buffer_.size()) {
+  if (!buffer_.empty() && buffer_.size() + bytes.size() > output_->write_bytes()) {
     if (const Result<void> flushed = flush(); !flushed) return flushed;
   }
-  static_assert(kMaxRawBytes <= kBufferBytes, "a page fits in the empty buffer");
+  static_assert(kMaxRawBytes <= ModelOutput::kMaxWriteBytes, "a page fits in the empty buffer");
   buffer_.insert(buffer_.end(), bytes.begin(), bytes.end());
   return {};
 }
 
 Result<void> PageWriter::flush() {
-  if (const Result<void> written = file_.write_at(buffer_offset_, buffer_); !written) {
+  if (const Result<void> written = output_->write_at(buffer_offset_, buffer_); !written) {
     return fail(written.error());
   }
   buffer_offset_ += buffer_.size();
@@ -123,7 +133,7 @@ Result<FileHeader> PageWriter::finish(const ModelRecord& model, std::uint32_t pa
     return fail(error);
   }
   if (const Result<void> written = write_out(header); !written) return fail(written.error());
-  if (const Result<void> committed = file_.commit(); !committed) return fail(committed.error());
+  if (const Result<void> committed = output_->commit(header, entries_); !committed) return fail(committed.error());
   fail(bad_argument(Error::kNowhere, "the file is finished; create another writer"));
   return header;
 }
@@ -132,7 +142,7 @@ Result<void> PageWriter::write_extensions() {
   for (const Extension& extension : extensions_) {
     if (const Result<void> flushed = flush(); !flushed) return flushed;
     extension_records_.push_back(record_of(extension, buffer_offset_));
-    const Result<void> written = file_.write_at(buffer_offset_, extension.bytes);
+    const Result<void> written = output_->write_at(buffer_offset_, extension.bytes);
     if (!written) return fail(written.error());
     buffer_offset_ += extension.bytes.size();
   }
@@ -171,21 +181,21 @@ Result<void> PageWriter::write_out(FileHeader& header) {
   assert(checked || checked.error().code == ErrorCode::kUnsupported);
   static_cast<void>(checked);
   if (const Result<void> written =
-          file_.write_at(kHeaderBytes, std::as_bytes(std::span(extension_records_)));
+          output_->write_at(kHeaderBytes, std::as_bytes(std::span(extension_records_)));
       !written) {
     return written;
   }
   for (unsigned level = 0; level < directory.shape().levels(); ++level) {
-    const Result<void> written = file_.write_at(
+    const Result<void> written = output_->write_at(
         directory_block_start(header, directory.shape(), level, 0), directory.level(level));
     if (!written) return written;
   }
   const std::span<const std::byte> bytes = std::as_bytes(std::span(&header, 1));
-  if (const Result<void> written = file_.write_at(header.file_bytes - kHeaderBytes, bytes);
+  if (const Result<void> written = output_->write_at(header.file_bytes - kHeaderBytes, bytes);
       !written) {
     return written;
   }
-  return file_.write_at(0, bytes);
+  return output_->write_at(0, bytes);
 }
 
 Error PageWriter::fail(const Error& error) noexcept {

@@ -3,19 +3,20 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "planetree/error.h"
 #include "storage/file/extension.h"
 #include "storage/file/file_layout.h"
+#include "storage/file/model_output.h"
 #include "storage/file/page_codec.h"
 #include "storage/system/file_calls.h"
-#include "storage/system/new_file.h"
 
 namespace planetree::storage {
 
-/// Writes one .ptree file, page after page, and commits it either complete or not at all.
+/// Writes one model, page after page, and commits it either complete or not at all.
 ///
 /// The bytes written depend on the arguments alone. After an error every later call returns that
 /// error, and destroying the writer leaves the destination unchanged.
@@ -37,6 +38,11 @@ class PageWriter {
   static Result<PageWriter> create(const std::filesystem::path& path, std::uint32_t page_count,
                                    std::vector<Extension> extensions, bool replace,
                                    FileCalls& calls = FileCalls::real());
+  /// Starts the writing of a model to `output`; otherwise as above.
+  ///
+  /// errors  kBadArgument; those of `output`.
+  static Result<PageWriter> create(std::unique_ptr<ModelOutput> output, std::uint32_t page_count,
+                                   std::vector<Extension> extensions);
 
   /// Adds the next page.
   ///
@@ -62,11 +68,11 @@ class PageWriter {
   /// return      the header that was written.
   /// errors      kBadArgument: pages are missing or `model` breaks a rule of the format;
   ///             kAlreadyExists: the name was taken in the meantime; otherwise those of append().
-  ///             NewFile::commit() states what remains after a failure.
+  ///             ModelOutput::commit() states what remains after a failure.
   Result<FileHeader> finish(const ModelRecord& model, std::uint32_t page_bytes);
 
  private:
-  explicit PageWriter(NewFile file) noexcept : file_(std::move(file)) {}
+  explicit PageWriter(std::unique_ptr<ModelOutput> output) noexcept : output_(std::move(output)) {}
   Result<void> check_next(std::uint64_t octcode, std::uint32_t raw_bytes,
                           const StoredPage& stored) const noexcept;
   Result<void> add_bytes(std::span<const std::byte> bytes);
@@ -76,7 +82,7 @@ class PageWriter {
   Result<void> write_out(FileHeader& header);
   Error fail(const Error& error) noexcept;
 
-  NewFile file_;
+  std::unique_ptr<ModelOutput> output_;
   std::vector<DirectoryPage> entries_;
   std::vector<Extension> extensions_;
   std::vector<ExtensionRecord> extension_records_;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "planetree/error.h"
 #include "storage/system/file_calls.h"
@@ -43,6 +44,9 @@ class NewFile {
 
   /// errors  those of file_error(), among them kNoSpace.
   Result<void> write_at(std::uint64_t offset, std::span<const std::byte> bytes) const noexcept;
+
+  /// Gives the file another name in the same directory. Call it before commit().
+  void rename(std::string name) noexcept { name_ = std::move(name); }
 
   /// The file, open for reading and writing until it is committed. It belongs to this.
   const FileHandle& file() const noexcept { return file_; }

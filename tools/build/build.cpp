@@ -30,6 +30,7 @@ void add_build(CLI::App& app, Console& console, std::function<int()>& action) {
                       "or OBJ, as it is or compressed by gzip or zstd"));
   subcommand.require(subcommand.path("-o,--output", "OUT.ptree", arguments.output,
                                      "File to write; it appears only when it is complete"));
+  add_set(subcommand, options->texts);
   add_resources(subcommand, arguments.options, options->texts);
   subcommand.path(
       "--temp-dir", "DIR", arguments.options.temp_directory,
@@ -50,7 +51,9 @@ void add_build(CLI::App& app, Console& console, std::function<int()>& action) {
   subcommand.flag("--quiet", arguments.quiet, "Show no progress");
   subcommand.on_given([options, keep, &console, &action] {
     action = [options, &console] { return run_build(options->arguments, console); };
-    return take_texts(options->texts, keep, options->arguments.options);
+    BuildArguments& given = options->arguments;
+    const std::string complaint = take_set(options->texts, given.output, given.options);
+    return complaint.empty() ? take_texts(options->texts, keep, given.options) : complaint;
   });
 }
 

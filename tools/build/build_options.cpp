@@ -7,6 +7,7 @@
 #include <map>
 
 #include "octree/builder/mesh/stream/mesh_text.h"
+#include "storage/set/member_address.h"
 #include "tools/cli/coordinate_text.h"
 #include "tools/cli/layer_option.h"
 
@@ -86,6 +87,29 @@ void add_resources(SubcommandOptions& subcommand, BuildOptions& options, BuildOp
                        "Maximum memory for the build; data that does not fit goes to temporary "
                        "files. The file does not depend on it"),
       "a quarter of the machine's memory");
+}
+
+void add_set(SubcommandOptions& subcommand, BuildOptionTexts& text) {
+  const auto set = subcommand.flag(
+      "--set", text.set,
+      "Write a set, OUT.ptreeset: members beside it have the bytes of the file, and it says which. "
+      "For file systems and servers that refuse large files, and for machines that keep a part");
+  const auto size = subcommand.bytes("--member-size", text.member_bytes,
+                                     "Maximum length of a member of the set, from 64K on. Members "
+                                     "are longer if there would be more than 256");
+  SubcommandOptions::default_text(size, "4G");
+  SubcommandOptions::need(size, set);
+}
+
+std::string take_set(const BuildOptionTexts& texts, const std::filesystem::path& output,
+                     BuildOptions& options) {
+  if (texts.set != storage::is_set_name(output.native()))
+    return texts.set ? "--set: the output is named OUT.ptreeset; give it such a name"
+                     : "an output that is named .ptreeset is a set; give --set too";
+  if (!texts.set) return {};
+  options.member_bytes = texts.member_bytes;
+  if (texts.member_bytes >= BuildOptions::kMinMemberBytes) return {};
+  return fmt::format("--member-size: {} is too little; give 64K or more", texts.member_bytes);
 }
 
 void add_box(SubcommandOptions& subcommand, BuildOptions& options) {

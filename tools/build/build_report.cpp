@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "storage/set/open_model.h"
 #include "tools/cli/attribute_option.h"
 #include "tools/cli/file_digest.h"
 #include "tools/cli/file_text.h"
@@ -99,7 +100,8 @@ int report_build(const Result<BuildReport>& built, BuildMeter& meter, const Buil
     console.print(plain_report(record));
     return console.finish(kDone);
   }
-  const auto sha256 = sha256_of_file(files.output);
+  const auto bytes = storage::open_model_source(files.output);
+  const auto sha256 = bytes ? sha256_of(**bytes) : Result<std::string>(bytes.error());
   if (!sha256) return console.fail(files.output.string(), sha256.error());
   console.print(json_report(record, *sha256));
   return console.finish(kDone);

@@ -16,7 +16,7 @@ struct BuildFiles {
 };
 
 /// Reports a build that has ended: its error, or warnings and then one line of text or of JSON,
-/// which has the SHA-256 of the file. Returns the exit status.
+/// which has the SHA-256 of the file, or of the joined members of a set. Returns the exit status.
 int report_build(const Result<BuildReport>& built, BuildMeter& meter, const BuildFiles& files,
                  bool json, Console& console);
 

@@ -62,6 +62,10 @@ bool has_content(const BuildOptions& given) {
          given.strict != none.strict || !given.metadata.empty();
 }
 
+std::string set_complaint(const BuildOptionTexts& texts, const std::string& step) {
+  return texts.set ? fmt::format("--set is for merge; give {} none", step) : std::string();
+}
+
 std::string complaint_of(const ShardArguments& arguments) {
   const std::string& step = arguments.step;
   const bool plans = step == "plan", merges = step == "merge";
@@ -113,6 +117,7 @@ void add_shard(CLI::App& app, Console& console, std::function<int()>& action) {
                   "Directory of the job, for plan; the file to write, for merge");
   subcommand.count("--shards", arguments.shards, kMaxShards,
                    "Number of parts, for plan. The file does not depend on it");
+  add_set(subcommand, options->texts);
   add_resources(subcommand, arguments.options, options->texts);
   subcommand.path("--temp-dir", "DIR", arguments.options.temp_directory,
                   "Directory for temporary files, which vanish with the process; by default the "
@@ -126,8 +131,13 @@ void add_shard(CLI::App& app, Console& console, std::function<int()>& action) {
     ShardArguments& given = options->arguments;
     if (SubcommandOptions::given(shard)) given.shard = static_cast<std::uint32_t>(options->shard);
     action = [options, &console] { return run_shard(options->arguments, console); };
-    const std::string complaint = take_texts(options->texts, keep, given.options);
-    return complaint.empty() ? complaint_of(given) : complaint;
+    for (const std::string& complaint :
+         {take_texts(options->texts, keep, given.options),
+          given.step == "merge" ? take_set(options->texts, given.output, given.options)
+                                : set_complaint(options->texts, given.step),
+          complaint_of(given)})
+      if (!complaint.empty()) return complaint;
+    return std::string();
   });
 }
 

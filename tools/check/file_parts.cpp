@@ -15,7 +15,7 @@
 #include "storage/file/header_faults.h"
 #include "storage/file/metadata.h"
 #include "storage/file/page_codec.h"
-#include "storage/http/open_source.h"
+#include "storage/set/open_model.h"
 #include "tools/check/directory_survey.h"
 
 namespace planetree::tools {
@@ -52,7 +52,7 @@ Result<FileParts> FileParts::open(const std::filesystem::path& path, storage::Fi
                                   const storage::HttpOptions& http) {
   FileParts parts;
   parts.path_ = path;
-  auto source = storage::open_source(path, http, calls);
+  auto source = storage::open_model_source(path, {http, true}, calls);
   if (!source && source.error().code == ErrorCode::kNotPlanetree) {
     parts.issues_.push_back(Issue::from(IssueCode::kNotPlanetree, source.error()));
     return parts;

@@ -3,22 +3,19 @@
 #include <fmt/format.h>
 #include <openssl/evp.h>
 
-#include <cerrno>
-#include <cstdio>
+#include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <vector>
 
-#include "storage/system/file_error.h"
+#include "storage/system/file_calls.h"
 
 namespace planetree::tools {
 namespace {
 
 constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
 
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
 struct FreeContext {
   void operator()(EVP_MD_CTX* context) const { EVP_MD_CTX_free(context); }
 };
@@ -37,18 +34,20 @@ std::string hexadecimal(std::span<const unsigned char> bytes) {
 }  // namespace
 
 Result<std::string> sha256_of_file(const std::filesystem::path& path) {
-  const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rbe"));
-  if (!file) return storage::file_error(errno, storage::FileAction::kRead, "open the file");
+  const auto source = storage::open_file_source(path.c_str(), storage::FileCalls::real());
+  return source ? sha256_of(**source) : Result<std::string>(source.error());
+}
+
+Result<std::string> sha256_of(const storage::ByteSource& source) {
   const std::unique_ptr<EVP_MD_CTX, FreeContext> context(EVP_MD_CTX_new());
   if (!context || EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) != 1) return no_digest();
-  std::vector<unsigned char> piece(kPieceBytes);
-  for (;;) {
-    const std::size_t bytes = std::fread(piece.data(), 1, piece.size(), file.get());
-    if (bytes == 0) break;
-    if (EVP_DigestUpdate(context.get(), piece.data(), bytes) != 1) return no_digest();
+  std::vector<std::byte> piece;
+  for (std::uint64_t at = 0; at < source.size_bytes(); at += piece.size()) {
+    piece.resize(
+        static_cast<std::size_t>(std::min<std::uint64_t>(kPieceBytes, source.size_bytes() - at)));
+    if (const auto read = source.read_at(at, piece); !read) return read.error();
+    if (EVP_DigestUpdate(context.get(), piece.data(), piece.size()) != 1) return no_digest();
   }
-  if (std::ferror(file.get()) != 0)
-    return storage::file_error(errno, storage::FileAction::kRead, "read the file");
   unsigned char digest[EVP_MAX_MD_SIZE];
   unsigned length = 0;
   if (EVP_DigestFinal_ex(context.get(), digest, &length) != 1) return no_digest();

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "planetree/error.h"
+#include "storage/system/byte_source.h"
 
 namespace planetree::tools {
 
@@ -11,5 +12,9 @@ namespace planetree::tools {
 ///
 /// errors  as storage::file_error(); kReadFailed where OpenSSL does not provide SHA-256.
 Result<std::string> sha256_of_file(const std::filesystem::path& path);
+/// The same of the bytes of a source.
+///
+/// errors  those of reading it; kReadFailed where OpenSSL does not provide SHA-256.
+Result<std::string> sha256_of(const storage::ByteSource& source);
 
 }  // namespace planetree::tools

@@ -6,6 +6,7 @@
 
 #include "query/file/scene_frames.h"
 #include "storage/file/page_file.h"
+#include "storage/set/open_model.h"
 #include "tools/cli/layer_option.h"
 
 namespace planetree::tools {
@@ -17,7 +18,9 @@ Result<SceneOptions> options_for(const SceneDescription& description, const Scen
   options.max_instances = static_cast<std::uint32_t>(description.instances.size());
   options.max_page_bytes = 4096;
   for (const ModelDescription& model : description.models) {
-    const auto file = storage::PageFile::open(model.file);
+    auto source = storage::open_model_source(model.file);
+    const auto file = source ? storage::PageFile::open(*std::move(source))
+                             : Result<storage::PageFile>(source.error());
     if (!file) {
       failed_file = model.file;
       return file.error();

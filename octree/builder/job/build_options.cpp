@@ -24,6 +24,10 @@ Result<void> BuildOptions::check() const {
                       "attributes are 0x%x; combine kKeepTriangles, kKeepColor, kKeepUv and "
                       "kKeepValue",
                       keep);
+  if (member_bytes > 0 && member_bytes < kMinMemberBytes)
+    return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
+                      "members of %llu bytes; use 64K or more",
+                      static_cast<unsigned long long>(member_bytes));
   return box ? box->check() : Result<void>();
 }
 

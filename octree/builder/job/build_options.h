@@ -15,6 +15,8 @@
 namespace planetree::octree {
 
 struct BuildOptions {
+  static constexpr std::uint64_t kMinMemberBytes = 65536;
+
   std::uint32_t page_bytes = 65536;  ///< size of a decoded page: a power of two, 4 KiB to 256 KiB
   unsigned threads = 0;              ///< 0: as many as the machine has
   /// Maximum resident memory of the process; 0: a quarter of the machine's memory. What does not
@@ -36,15 +38,15 @@ struct BuildOptions {
   /// Keeps completed work in a checkpoint, and resumes the one that an earlier build of the same
   /// input and options left.
   bool resume = false;
+  std::uint64_t member_bytes = 0;  ///< 0: one file; else a set, see planetree::BuildOptions
   Metadata metadata;  ///< as in the file; without a generator there is none
 
   bool has_side_layer() const { return (layers & kSideLayer) != 0; }
   /// What the file keeps: `keep`, with the links that all attributes need.
   std::uint32_t kept_attributes() const { return keep == 0 ? 0 : keep | kKeepTriangles; }
   bool has_field_layer() const { return (layers & kFieldLayer) != 0; }
-  /// errors  kBadArgument: page_bytes is none of a page; an unknown layer or attribute; the box is
-  /// none, see
-  ///         RegionBox::check()
+  /// errors  kBadArgument: page_bytes is none of a page; an unknown layer or attribute; members are
+  ///         too short; the box is none, see RegionBox::check()
   Result<void> check() const;
   /// Directory of the output.
   static std::filesystem::path output_directory(const std::filesystem::path& output);

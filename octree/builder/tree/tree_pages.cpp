@@ -1,9 +1,11 @@
 #include "octree/builder/tree/tree_pages.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <utility>
 
+#include "octree/builder/tree/float_rounding.h"
 #include "octree/builder/tree/page_encoder.h"
 #include "octree/page/page_streams.h"
 
@@ -27,6 +29,19 @@ TreePages::TreePages(TopTree& top_tree, const std::vector<BuiltChunk>& chunks,
       ++link.record;
     }
   }
+}
+
+std::optional<FloatBox> TreePages::box_of(std::uint32_t first, std::uint32_t end) const {
+  std::optional<FloatBox> box;
+  first = std::max(first, this->first());
+  end = std::min(end, this->first() + size());
+  for (std::uint32_t number = first; number < end; ++number) {
+    const std::uint32_t chunk = numbers_.page(number).chunk;
+    if (chunk == NumberedPage::kTopTree) continue;
+    if (!box) box = empty_box();
+    extend(*box, chunks_[chunk].box);
+  }
+  return box;
 }
 
 Result<FilePage> TreePages::encode(std::uint32_t number) const {

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "octree/builder/tree/chunk_build.h"
 #include "octree/builder/tree/page_appender.h"
 #include "octree/builder/tree/page_numbers.h"
 #include "octree/builder/tree/top_tree.h"
+#include "octree/geometry/child_bounds.h"
 #include "storage/spill/spill_file.h"
 
 namespace planetree::octree {
@@ -26,6 +28,9 @@ class TreePages {
   bool has(std::uint32_t number) const { return number - first() < size(); }
   /// number  in the file.
   Result<FilePage> encode(std::uint32_t number) const;
+  /// Returns a box, relative to the model's centre, that contains the triangles of the pages from
+  /// `first` to before `end`, numbers in the file of any pages. Empty if none has triangles.
+  std::optional<FloatBox> box_of(std::uint32_t first, std::uint32_t end) const;
 
  private:
   const TopTree& top_tree_;

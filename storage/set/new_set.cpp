@@ -1,0 +1,189 @@
+#include "storage/set/new_set.h"
+
+#include <fcntl.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "storage/set/member_address.h"
+#include "storage/system/byte_source.h"
+
+namespace planetree::storage {
+namespace {
+
+constexpr const char* kMemberExtension = ".part";
+
+Error bad_argument(const char* cause) {
+  return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere, "%s", cause);
+}
+
+bool is_utf8(const std::string& text) {
+  try {
+    static_cast<void>(nlohmann::json(text).dump());
+    return true;
+  } catch (const nlohmann::json::exception&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+Result<std::unique_ptr<ModelOutput>> NewSet::create(const std::filesystem::path& path,
+                                                    SetDivision division, bool replace,
+                                                    FileCalls& calls) {
+  if (!is_set_name(path.native()))
+    return bad_argument("the name of a set ends in .ptreeset; give it such a name");
+  if (!is_utf8(path.stem().string()))
+    return bad_argument("the name of a set has to be UTF-8; give it another name");
+  auto record = NewFile::create(path, replace, calls);
+  if (!record) return record.error();
+  return std::unique_ptr<ModelOutput>(
+      new NewSet(path, std::move(division), *std::move(record), replace, calls));
+}
+
+NewSet::NewSet(std::filesystem::path path, SetDivision division, NewFile record, bool replace,
+               FileCalls& calls)
+    : path_(std::move(path)),
+      division_(std::move(division)),
+      record_file_(std::move(record)),
+      replace_(replace),
+      calls_(calls) {}
+
+std::string NewSet::name_of(const Hash128& id, std::size_t member) const {
+  char rest[64];
+  std::snprintf(rest, sizeof rest, ".%016llx.%03zu", static_cast<unsigned long long>(id.high),
+                member);
+  return path_.stem().string() + rest + kMemberExtension;
+}
+
+Result<void> NewSet::add_member() {
+  if (members_.size() == SetRecord::kMaxMembers)
+    return bad_argument("a set has at most 256 members; give a larger size of members");
+  // It gets its name when the content id is known.
+  auto file = NewFile::create(folder() / name_of({}, members_.size()), true, calls_);
+  if (!file) return file.error();
+  members_.push_back({*std::move(file), 0, {}});
+  return {};
+}
+
+std::filesystem::path NewSet::folder() const {
+  return path_.has_parent_path() ? path_.parent_path() : ".";
+}
+
+Result<void> NewSet::begin(std::uint64_t pages_start) {
+  pages_start_ = pages_start;
+  if (const auto added = add_member(); !added) return added;
+  members_.front().bytes = pages_start;
+  return add_member();
+}
+
+std::size_t NewSet::write_bytes() const noexcept {
+  return static_cast<std::size_t>(std::min<std::uint64_t>(division_.member_bytes, kMaxWriteBytes));
+}
+
+Result<void> NewSet::write_at(std::uint64_t offset, std::span<const std::byte> bytes) {
+  if (offset < pages_start_) return members_.front().file.write_at(offset, bytes);
+  const bool is_full = members_.back().bytes > 0 &&
+                       bytes.size() > division_.member_bytes - std::min(division_.member_bytes,
+                                                                        members_.back().bytes);
+  if (is_full)
+    if (const auto added = add_member(); !added) return added;
+  NewMember& member = members_.back();
+  const auto written = member.file.write_at(member.bytes, bytes);
+  member.bytes += bytes.size();
+  member.hasher.add(bytes);
+  return written;
+}
+
+// What is before the pages was not written in order.
+Result<void> NewSet::hash_first_member() {
+  NewMember& first = members_.front();
+  std::vector<std::byte> part(std::size_t{1} << 20);
+  for (std::uint64_t at = 0; at < first.bytes; at += part.size()) {
+    part.resize(static_cast<std::size_t>(std::min<std::uint64_t>(part.size(), first.bytes - at)));
+    if (const auto read = first.file.file().read_at(at, part); !read) return read;
+    first.hasher.add(part);
+  }
+  return {};
+}
+
+Result<void> NewSet::commit(const FileHeader& header, std::span<const DirectoryPage> pages) {
+  if (const auto hashed = hash_first_member(); !hashed) return hashed;
+  const SetRecord record = describe(header, pages);
+  const std::vector<std::string> earlier = earlier_members();
+  const std::string text = record.text();
+  const auto written = record_file_.write_at(0, std::as_bytes(std::span(text)));
+  if (!written) return written;
+  if (const auto published = publish_members(record); !published) return published;
+  if (const auto committed = record_file_.commit(); !committed) return committed;
+  remove_members(earlier, record);
+  return {};
+}
+
+// Leaves no member after a failure, but those that an earlier set shares.
+Result<void> NewSet::publish_members(const SetRecord& record) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    names.push_back(record.members[i].address);
+    members_[i].file.rename(names.back());
+    if (const auto committed = members_[i].file.commit(); !committed) {
+      SetRecord kept;
+      for (std::string& name : earlier_members()) kept.members.push_back({std::move(name)});
+      remove_members(names, kept);
+      return committed;
+    }
+  }
+  return {};
+}
+
+SetRecord NewSet::describe(const FileHeader& header, std::span<const DirectoryPage> pages) const {
+  SetRecord record;
+  record.content_id = {header.content_id[0], header.content_id[1]};
+  std::uint64_t end = 0, page_end = 0;  // of the member and of the pages so far
+  std::uint32_t page = 0;
+  for (const NewMember& member : members_) {
+    // The pages are behind the first member.
+    end += record.members.empty() ? 0 : member.bytes;
+    const std::uint32_t first = page;
+    for (; page < pages.size() && page_end + pages[page].stored_bytes <= end; ++page)
+      page_end += pages[page].stored_bytes;
+    record.members.push_back({.address = name_of(record.content_id, record.members.size()),
+                              .bytes = member.bytes,
+                              .hash = member.hasher.value(),
+                              .pages = page - first,
+                              .box = division_.box_of_pages(first, page)});
+  }
+  assert(page == pages.size());
+  return record;
+}
+
+/// Names of the members of the set that this one replaces, as far as they are beside it and named
+/// like members of it.
+std::vector<std::string> NewSet::earlier_members() const {
+  std::vector<std::string> names;
+  if (!replace_) return names;
+  const auto file = open_file_source(path_.c_str(), calls_);
+  const auto record = file ? SetRecord::read(**file) : Result<SetRecord>(file.error());
+  if (!record) return names;
+  for (const SetMember& member : record->members)
+    if (member.address.starts_with(path_.stem().string() + ".") &&
+        member.address.ends_with(kMemberExtension) &&
+        member.address.find('/') == std::string::npos)
+      names.push_back(member.address);
+  return names;
+}
+
+// A name that cannot be removed is left.
+void NewSet::remove_members(const std::vector<std::string>& names, const SetRecord& except) const {
+  for (const std::string& name : names) {
+    const bool is_kept =
+        std::any_of(except.members.begin(), except.members.end(),
+                    [&name](const SetMember& member) { return member.address == name; });
+    if (!is_kept) calls_.unlinkat(AT_FDCWD, (folder() / name).c_str(), 0);
+  }
+}
+
+}  // namespace planetree::storage

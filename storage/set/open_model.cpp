@@ -1,0 +1,62 @@
+#include "storage/set/open_model.h"
+
+#include <algorithm>
+#include <new>
+#include <utility>
+
+#include "storage/http/http_url.h"
+#include "storage/http/open_source.h"
+#include "storage/set/member_address.h"
+#include "storage/set/set_record.h"
+
+namespace planetree::storage {
+namespace {
+
+bool is_remote(const std::filesystem::path& set, const SetRecord& record) {
+  return is_http_url(set.native()) ||
+         std::any_of(record.members.begin(), record.members.end(),
+                     [](const SetMember& member) { return is_http_url(member.address); });
+}
+
+Result<std::unique_ptr<SetSource>> read_set(const std::filesystem::path& path,
+                                            const ModelSourceOptions& options, FileCalls& calls) {
+  const auto file = open_source(path, options.http, calls);
+  if (!file) return file.error();
+  auto record = SetRecord::read(**file);
+  if (!record) return record.error();
+  const bool remote = is_remote(path, *record);
+  const auto open = [path, http = options.http,
+                     &calls](const std::string& address) -> Result<std::unique_ptr<ByteSource>> {
+    const auto member = member_path(path, address);
+    if (!member) return member.error();
+    return open_source(*member, http, calls);
+  };
+  auto set = std::make_unique<SetSource>(*std::move(record), remote,
+                                         std::string((*file)->name()), open);
+  if (!remote && !options.allows_missing_members)
+    if (const auto opened = set->open_all(); !opened) return opened.error();
+  return set;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<SetSource>> open_set(const std::filesystem::path& path,
+                                            const ModelSourceOptions& options, FileCalls& calls) {
+  try {
+    return read_set(path, options, calls);
+  } catch (const std::bad_alloc&) {
+    return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
+                      "no memory to open the set; free some and try again");
+  }
+}
+
+Result<std::unique_ptr<ByteSource>> open_model_source(const std::filesystem::path& path,
+                                                      const ModelSourceOptions& options,
+                                                      FileCalls& calls) {
+  if (!is_set_name(path.native())) return open_source(path, options.http, calls);
+  auto set = open_set(path, options, calls);
+  if (!set) return set.error();
+  return std::unique_ptr<ByteSource>(*std::move(set));
+}
+
+}  // namespace planetree::storage
