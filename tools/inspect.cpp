@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -19,6 +20,7 @@
 #include "tools/report/level_report.h"
 #include "tools/report/page_report.h"
 #include "tools/report/summary_report.h"
+#include "tools/set/set_survey.h"
 #include "tools/slice/show_slice.h"
 
 namespace planetree::tools {
@@ -30,8 +32,10 @@ constexpr std::uint64_t kMaxLevel = 255;  // of the tree
 
 class Inspection {
  public:
-  Inspection(const InspectArguments& arguments, Console& console, FileParts& parts)
-      : arguments_(arguments), console_(console), parts_(parts) {}
+  /// members  of a set
+  Inspection(const InspectArguments& arguments, Console& console, FileParts& parts,
+             std::optional<SetSurvey> members)
+      : arguments_(arguments), console_(console), parts_(parts), members_(std::move(members)) {}
 
   int show_all();
   int show_page(std::uint32_t page);
@@ -49,6 +53,7 @@ class Inspection {
   const InspectArguments& arguments_;
   Console& console_;
   FileParts& parts_;
+  const std::optional<SetSurvey> members_;
 };
 
 Error refusal(const std::string& text) {
@@ -127,12 +132,14 @@ int Inspection::show_all() {
 
 std::string Inspection::all_text(const InspectRecord& record) const {
   return (arguments_.levels ? levels_text(record.survey) : std::string()) +
-         summary_text(record.file, parts_, record.survey);
+         summary_text(record.file, parts_, record.survey) +
+         (members_ ? members_->text(parts_) : std::string());
 }
 
 std::string Inspection::all_json(const InspectRecord& record, Json page_rows) const {
   Json json = {{"file", record.file}};
   json.update(record.summary);
+  if (members_) json["members"] = members_->json(parts_);
   if (arguments_.levels) {
     json["by_level"] = levels_json(record.survey);
     json["mask_by_level"] = mask_levels_json(record.survey);
@@ -243,10 +250,13 @@ int run_inspect(const InspectArguments& arguments, Console& console) {
   if (!arguments.bounds.output.empty()) return show_bounds(bounds_of(arguments), console);
   if (arguments.why) return show_why(arguments, console);
   const std::string file = arguments.file.string();
-  auto parts = FileParts::open(arguments.file, storage::FileCalls::real(),
-                               {arguments.http_cache.directory, arguments.http_cache.bytes, {}});
+  const storage::HttpOptions http{arguments.source.directory, arguments.source.bytes, {}};
+  auto members = SetSurvey::of(arguments.file, http, false);
+  if (!members) return console.fail(file, members.error());
+  auto parts = FileParts::open(arguments.file, storage::FileCalls::real(), http);
   if (!parts) return console.fail(file, parts.error());
-  Inspection inspection(arguments, console, *parts);
+  if (*members) (*members)->add_issues(*parts);
+  Inspection inspection(arguments, console, *parts, *std::move(members));
   // A file without a readable header or directory has no pages to show.
   const bool has_pages = parts->page_count() > 0;
   if (arguments.node && has_pages) return inspection.show_nodes();
@@ -265,9 +275,9 @@ void add_inspect(CLI::App& app, Console& console, std::function<int()>& action) 
   const auto options = std::make_shared<Options>();
   InspectArguments& arguments = options->arguments;
   SubcommandOptions subcommand(app, "inspect",
-                               "Show the contents of a .ptree file, also of a damaged one");
+                               "Show the contents of a .ptree file or a set, also of a damaged one");
   subcommand.require(
-      subcommand.path("file", "FILE", arguments.file, "File to inspect, or a URL of one"));
+      subcommand.path("file", "FILE", arguments.file, "File or set to inspect, or a URL of one"));
   subcommand.flag("--levels", arguments.levels,
                   "Add a row for each depth of the tree and each level of the mask");
   subcommand.flag("--pages", arguments.pages,
@@ -302,7 +312,7 @@ void add_inspect(CLI::App& app, Console& console, std::function<int()>& action) 
   const auto force = subcommand.flag("--force", arguments.html.force,
                                      "Replace the file of --image, --export-bounds or --html if it "
                                      "exists");
-  add_http_cache(subcommand, arguments.http_cache);
+  add_http_cache(subcommand, arguments.source);
   subcommand.flag("--json", arguments.json,
                   "Report as one JSON object; progress as JSON lines, on standard error");
   subcommand.flag("--quiet", arguments.quiet, "Show no progress");

@@ -29,7 +29,7 @@ struct InspectArguments {
   SliceArguments slice;    ///< if it has a plane; `file`, `json` and `quiet` are those of this
   BoundsArguments bounds;  ///< likewise, if it has an output
   std::optional<Vec3> why;
-  HttpCacheChoice http_cache;  ///< for a URL
+  SourceChoice source;  ///< for a URL or a set
   PageChoice html;             ///< page to write; --force is also for the picture and the bounds
   bool json = false;
   bool quiet = false;

@@ -241,7 +241,7 @@ Result<OpenOptions> open_options(const QueryArguments& arguments) {
   options.wait_limit_ms = static_cast<unsigned>(arguments.wait_limit_ms);
   options.use_io_uring = !arguments.no_io_uring;
   options.max_probes = 1;
-  arguments.http_cache.apply_to(options);
+  arguments.source.apply_to(options);
   if (arguments.trace.empty()) return options;
   options.page_trace_capacity = kTraceWords;
   const auto budget = budget_with_trace(arguments.file, options);

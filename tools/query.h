@@ -41,7 +41,7 @@ struct QueryArguments {
   std::uint64_t threads = 0;  ///< batch threads; 0: one for each processor
   std::uint64_t wait_limit_ms = OpenOptions().wait_limit_ms;
   bool no_io_uring = false;
-  HttpCacheChoice http_cache;  ///< for a URL
+  SourceChoice source;  ///< for a URL or a set
   AnswerForm form;
   bool json = false;
   bool quiet = false;

@@ -186,7 +186,8 @@ void add_limits(SubcommandOptions& subcommand, Options& options) {
       subcommand.bytes("--memory", arguments.memory_bytes, "Maximum memory for the model"), "256M");
   add_policy(subcommand, arguments.policy);
   add_open_layers(subcommand, arguments.layers);
-  add_http_cache(subcommand, arguments.http_cache);
+  add_http_cache(subcommand, arguments.source);
+  add_missing_members(subcommand, arguments.source);
   subcommand.default_text(
       subcommand.count(
           "--threads", arguments.threads, OpenOptions::kMaxBatchThreads,

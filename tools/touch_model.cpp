@@ -21,7 +21,7 @@ OpenOptions options_of(const TouchArguments& arguments) {
   options.layers = arguments.layers;
   options.policy = arguments.policy;
   options.use_io_uring = !arguments.no_io_uring;
-  arguments.http_cache.apply_to(options);
+  arguments.source.apply_to(options);
   options.max_probes = 1;
   return options;
 }

@@ -11,6 +11,7 @@
 #include "tools/cli/progress.h"
 #include "tools/cli/size_text.h"
 #include "tools/cli/subcommand_options.h"
+#include "tools/set/set_survey.h"
 
 namespace planetree::tools {
 namespace {
@@ -54,9 +55,12 @@ std::string plain_report(const VerifyArguments& arguments, const CheckReport& re
 }  // namespace
 
 int run_verify(const VerifyArguments& arguments, Console& console) {
-  auto parts = FileParts::open(arguments.file, storage::FileCalls::real(),
-                               {arguments.http_cache.directory, arguments.http_cache.bytes, {}});
+  const storage::HttpOptions http{arguments.source.directory, arguments.source.bytes, {}};
+  const auto members = SetSurvey::of(arguments.file, http, arguments.full);
+  if (!members) return console.fail(arguments.file.string(), members.error());
+  auto parts = FileParts::open(arguments.file, storage::FileCalls::real(), http);
   if (!parts) return console.fail(arguments.file.string(), parts.error());
+  if (*members) (*members)->add_issues(*parts);
   Progress progress(arguments.quiet, arguments.json);
   progress.start("verifying", parts->page_count(), "pages");
   const CheckReport report =
@@ -69,13 +73,14 @@ int run_verify(const VerifyArguments& arguments, Console& console) {
 
 void add_verify(CLI::App& app, Console& console, std::function<int()>& action) {
   const auto options = std::make_shared<VerifyArguments>();
-  SubcommandOptions subcommand(app, "verify", "Check a .ptree file against its format");
+  SubcommandOptions subcommand(app, "verify", "Check a .ptree file or a set against its format");
   subcommand.require(
-      subcommand.path("file", "FILE", options->file, "File to verify, or a URL of one"));
+      subcommand.path("file", "FILE", options->file, "File or set to verify, or a URL of one"));
   subcommand.flag(
       "--full", options->full,
-      "Also check every triangle and vertex, the bounds, the mask and the height fields");
-  add_http_cache(subcommand, options->http_cache);
+      "Also check every triangle and vertex, the bounds, the mask and the height fields, and the "
+      "hash of each member of a set");
+  add_http_cache(subcommand, options->source);
   subcommand.flag("--json", options->json,
                   "Report as one JSON object; progress as JSON lines, on standard error");
   subcommand.flag("--quiet", options->quiet, "Show no progress");

@@ -16,7 +16,7 @@ namespace planetree::tools {
 struct VerifyArguments {
   std::filesystem::path file;
   bool full = false;
-  HttpCacheChoice http_cache;  ///< for a URL
+  SourceChoice source;  ///< for a URL or a set
   bool json = false;
   bool quiet = false;
 };

@@ -113,30 +113,25 @@ Result<void> NewSet::hash_first_member() {
 Result<void> NewSet::commit(const FileHeader& header, std::span<const DirectoryPage> pages) {
   if (const auto hashed = hash_first_member(); !hashed) return hashed;
   const SetRecord record = describe(header, pages);
-  const std::vector<std::string> earlier = earlier_members();
+  const Names earlier = replace_ ? members_of_record() : Names();
   const std::string text = record.text();
   const auto written = record_file_.write_at(0, std::as_bytes(std::span(text)));
   if (!written) return written;
-  if (const auto published = publish_members(record); !published) return published;
-  if (const auto committed = record_file_.commit(); !committed) return committed;
-  remove_members(earlier, record);
-  return {};
+  Names names;
+  const auto published = publish(record, names);
+  // A failed commit may have replaced the record. Members that it names then stay.
+  remove_members(published ? earlier : names);
+  return published;
 }
 
-// Leaves no member after a failure, but those that an earlier set shares.
-Result<void> NewSet::publish_members(const SetRecord& record) {
-  std::vector<std::string> names;
+/// names  receives the names that members have by now
+Result<void> NewSet::publish(const SetRecord& record, Names& names) {
   for (std::size_t i = 0; i < members_.size(); ++i) {
     names.push_back(record.members[i].address);
     members_[i].file.rename(names.back());
-    if (const auto committed = members_[i].file.commit(); !committed) {
-      SetRecord kept;
-      for (std::string& name : earlier_members()) kept.members.push_back({std::move(name)});
-      remove_members(names, kept);
-      return committed;
-    }
+    if (const auto committed = members_[i].file.commit(); !committed) return committed;
   }
-  return {};
+  return record_file_.commit();
 }
 
 SetRecord NewSet::describe(const FileHeader& header, std::span<const DirectoryPage> pages) const {
@@ -160,11 +155,10 @@ SetRecord NewSet::describe(const FileHeader& header, std::span<const DirectoryPa
   return record;
 }
 
-/// Names of the members of the set that this one replaces, as far as they are beside it and named
-/// like members of it.
-std::vector<std::string> NewSet::earlier_members() const {
-  std::vector<std::string> names;
-  if (!replace_) return names;
+/// Names of members that the record under the name of this one has, as far as they are beside it
+/// and named like its members.
+NewSet::Names NewSet::members_of_record() const {
+  Names names;
   const auto file = open_file_source(path_.c_str(), calls_);
   const auto record = file ? SetRecord::read(**file) : Result<SetRecord>(file.error());
   if (!record) return names;
@@ -176,14 +170,12 @@ std::vector<std::string> NewSet::earlier_members() const {
   return names;
 }
 
-// A name that cannot be removed is left.
-void NewSet::remove_members(const std::vector<std::string>& names, const SetRecord& except) const {
-  for (const std::string& name : names) {
-    const bool is_kept =
-        std::any_of(except.members.begin(), except.members.end(),
-                    [&name](const SetMember& member) { return member.address == name; });
-    if (!is_kept) calls_.unlinkat(AT_FDCWD, (folder() / name).c_str(), 0);
-  }
+/// Removes members, but not those of the record. A name that cannot be removed is left.
+void NewSet::remove_members(const Names& names) const {
+  const Names kept = members_of_record();
+  for (const std::string& name : names)
+    if (std::find(kept.begin(), kept.end(), name) == kept.end())
+      calls_.unlinkat(AT_FDCWD, (folder() / name).c_str(), 0);
 }
 
 }  // namespace planetree::storage

@@ -51,6 +51,7 @@ class NewSet final : public ModelOutput {
   Result<void> commit(const FileHeader& header, std::span<const DirectoryPage> pages) override;
 
  private:
+  using Names = std::vector<std::string>;
   struct NewMember {
     NewFile file;
     std::uint64_t bytes = 0;
@@ -63,10 +64,10 @@ class NewSet final : public ModelOutput {
   std::string name_of(const Hash128& id, std::size_t member) const;
   Result<void> add_member();
   Result<void> hash_first_member();
-  Result<void> publish_members(const SetRecord& record);
+  Result<void> publish(const SetRecord& record, Names& names);
   SetRecord describe(const FileHeader& header, std::span<const DirectoryPage> pages) const;
-  std::vector<std::string> earlier_members() const;
-  void remove_members(const std::vector<std::string>& names, const SetRecord& except) const;
+  Names members_of_record() const;
+  void remove_members(const Names& names) const;
 
   const std::filesystem::path path_;
   const SetDivision division_;

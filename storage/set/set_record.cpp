@@ -136,15 +136,14 @@ std::uint64_t SetRecord::bytes() const noexcept {
   return sum;
 }
 
+// A member has a line of its own, for people who read the record.
 std::string SetRecord::text() const {
-  Json list = Json::array();
-  for (const SetMember& member : members) list.push_back(json_of(member));
-  const Json json = {{"format", kFormat},
-                     {"version", kVersion},
-                     {"content_id", hex(content_id)},
-                     {"bytes", bytes()},
-                     {"members", std::move(list)}};
-  return json.dump(1) + "\n";
+  std::string list;
+  for (const SetMember& member : members)
+    list += (list.empty() ? "\n  " : ",\n  ") + json_of(member).dump();
+  return "{\n \"format\": " + Json(kFormat).dump() + ",\n \"version\": " + Json(kVersion).dump() +
+         ",\n \"content_id\": " + Json(hex(content_id)).dump() +
+         ",\n \"bytes\": " + Json(bytes()).dump() + ",\n \"members\": [" + list + "\n ]\n}\n";
 }
 
 Result<SetRecord> SetRecord::read(const ByteSource& file) {

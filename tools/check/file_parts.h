@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "octree/attributes/attribute_page.h"
@@ -64,6 +65,8 @@ class FileParts {
 
   /// Issues found at open, outside of pages.
   std::span<const Issue> issues() const { return issues_; }
+  /// Adds an issue outside of pages.
+  void add_issue(Issue issue) { issues_.push_back(std::move(issue)); }
   std::uint64_t actual_bytes() const { return actual_bytes_; }
   const std::filesystem::path& path() const { return path_; }
 

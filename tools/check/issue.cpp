@@ -46,7 +46,8 @@ constexpr std::array<std::string_view, kIssueCodeCount> kNames = {"NOT_PLANETREE
                                                                   "CAPS",
                                                                   "FIELD",
                                                                   "ATTRIBUTES",
-                                                                  "EXTENSION"};
+                                                                  "EXTENSION",
+                                                                  "SET"};
 static_assert(!kNames.back().empty());
 
 }  // namespace

@@ -51,8 +51,9 @@ enum class IssueCode : std::uint8_t {
   kField,
   kAttributes,
   kExtension,
+  kSet,
 };
-inline constexpr std::size_t kIssueCodeCount = static_cast<std::size_t>(IssueCode::kExtension) + 1;
+inline constexpr std::size_t kIssueCodeCount = static_cast<std::size_t>(IssueCode::kSet) + 1;
 
 /// The code's name in reports, such as "PAGE_CHECKSUM".
 [[nodiscard]] std::string_view issue_name(IssueCode code);

@@ -7,7 +7,7 @@
 
 namespace planetree::tools {
 
-void add_http_cache(SubcommandOptions& subcommand, HttpCacheChoice& choice) {
+void add_http_cache(SubcommandOptions& subcommand, SourceChoice& choice) {
   const auto directory =
       subcommand.path("--http-cache", "DIR", choice.directory,
                       "Keep what is read of a URL in this directory, for later commands");
@@ -16,6 +16,12 @@ void add_http_cache(SubcommandOptions& subcommand, HttpCacheChoice& choice) {
                        "Maximum size of the file in --http-cache; the file is cut if it is larger"),
       "1G");
   subcommand.need(bytes, directory);
+}
+
+void add_missing_members(SubcommandOptions& subcommand, SourceChoice& choice) {
+  subcommand.flag("--allow-missing", choice.allow_missing,
+                  "Open a set of which members are missing. Answers that need one are degraded, "
+                  "with intervals that hold; planetree inspect lists the members");
 }
 
 unsigned batch_threads_of(unsigned wanted) {

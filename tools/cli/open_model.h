@@ -12,19 +12,23 @@
 
 namespace planetree::tools {
 
-/// Where models that are opened by URL keep what they read.
-struct HttpCacheChoice {
+/// Where models that are opened by URL keep what they read, and whether a set may lack members.
+struct SourceChoice {
   std::filesystem::path directory;  ///< empty: nowhere
   std::uint64_t bytes = OpenOptions{}.http_cache_bytes;
+  bool allow_missing = false;
 
   void apply_to(OpenOptions& options) const {
     options.http_cache = directory;
     options.http_cache_bytes = bytes;
+    options.allow_missing_members = allow_missing;
   }
 };
 
 /// Declares the options --http-cache and --http-cache-size, which set `choice`.
-void add_http_cache(SubcommandOptions& subcommand, HttpCacheChoice& choice);
+void add_http_cache(SubcommandOptions& subcommand, SourceChoice& choice);
+/// Declares --allow-missing.
+void add_missing_members(SubcommandOptions& subcommand, SourceChoice& choice);
 
 /// The number of batch threads: `wanted`, or one for each processor if that is 0.
 unsigned batch_threads_of(unsigned wanted);

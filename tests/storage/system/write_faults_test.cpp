@@ -5,6 +5,7 @@
 
 #include <functional>
 
+#include "storage/system/new_file.h"
 #include "tests/storage/file/sample_file.h"
 #include "tests/storage/system/faulty_calls.h"
 #include "tests/storage/system/temporary_directory.h"

@@ -1,0 +1,163 @@
+#include "tools/set/set_survey.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "storage/file/checksum.h"
+#include "storage/set/member_address.h"
+#include "storage/set/open_model.h"
+#include "tools/cli/file_text.h"
+#include "tools/cli/layer_words.h"
+#include "tools/cli/size_text.h"
+
+namespace planetree::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Result<storage::Hash128> hash_of(const storage::ByteSource& member) {
+  constexpr std::uint64_t kPartBytes = std::uint64_t{1} << 20;
+  storage::Hasher hasher;
+  std::vector<std::byte> part;
+  for (std::uint64_t at = 0; at < member.size_bytes(); at += part.size()) {
+    part.resize(static_cast<std::size_t>(std::min(kPartBytes, member.size_bytes() - at)));
+    if (const auto read = member.read_at(at, part); !read) return read.error();
+    hasher.add(part);
+  }
+  return hasher.value();
+}
+
+std::optional<Error> fault_of(const storage::SetSource& set, std::size_t number, bool hashes) {
+  const auto member = set.open_member(number);
+  if (!member) return member.error();
+  if (!hashes) return {};
+  const auto hash = hash_of(**member);
+  if (!hash) return hash.error();
+  const storage::SetMember& record = set.record().members[number];
+  if (*hash == record.hash) return {};
+  return make_error(ErrorCode::kDamaged, Error::kNowhere, Error::kNowhere,
+                    "member %s: its hash is wrong; copy it again, or build the set again",
+                    record.address.c_str());
+}
+
+// The layer that a kind of pages belongs to.
+std::uint32_t layer_of(storage::PageKind kind) {
+  switch (kind) {
+    case storage::PageKind::kDistance:
+      return kDistanceLayer;
+    case storage::PageKind::kField:
+      return kFieldLayer;
+    case storage::PageKind::kAttributes:
+      return kAttributeLayer;
+    case storage::PageKind::kCaps:
+    case storage::PageKind::kMask:
+      break;
+  }
+  return kSideLayer;
+}
+
+Issue issue_of(const char* message) {
+  return {IssueCode::kSet, Error::kNowhere, Error::kNowhere, message};
+}
+
+std::string corner_text(const double (&corner)[3]) {
+  return fmt::format("{:.6g} {:.6g} {:.6g}", corner[0], corner[1], corner[2]);
+}
+
+}  // namespace
+
+Result<std::optional<SetSurvey>> SetSurvey::of(const std::filesystem::path& path,
+                                               const storage::HttpOptions& http, bool hashes) {
+  if (!storage::is_set_name(path.native())) return std::optional<SetSurvey>();
+  const auto set = storage::open_set(path, {http, true});
+  if (!set) return set.error();
+  SetSurvey survey;
+  const storage::SetRecord& record = (*set)->record();
+  survey.content_id_ = record.content_id;
+  for (std::size_t i = 0; i < record.members.size(); ++i)
+    survey.members_.push_back({record.members[i], fault_of(**set, i, hashes)});
+  return std::optional(std::move(survey));
+}
+
+void SetSurvey::add_issues(FileParts& parts) const {
+  for (const Member& member : members_)
+    if (member.fault) parts.add_issue(Issue::from(IssueCode::kSet, *member.fault));
+  if (parts.page_count() == 0) return;
+  const storage::FileHeader& header = *parts.header();
+  if (content_id_ != storage::Hash128{header.content_id[0], header.content_id[1]})
+    parts.add_issue(issue_of("the content id of the record is not that of the first member"));
+  if (!counts_pages(parts))
+    parts.add_issue(issue_of("the record counts pages in members that do not have them"));
+}
+
+// Each page is in the member in which the record counts it.
+bool SetSurvey::counts_pages(const FileParts& parts) const {
+  std::uint64_t page = 0, end = 0;
+  for (const Member& member : members_) {
+    end += member.record.bytes;
+    page += member.record.pages;
+    if (page > parts.page_count()) return false;
+    if (page > 0) {
+      const storage::PageEntry& last = parts.entries()[page - 1];
+      if (last.offset + last.stored_bytes > end) return false;
+    }
+    if (page < parts.page_count() && parts.entries()[page].offset < end) return false;
+  }
+  return page == parts.page_count();
+}
+
+std::vector<std::uint32_t> SetSurvey::layers(const FileParts& parts) const {
+  std::vector<std::uint32_t> layers;
+  std::uint64_t page = 0;
+  for (const Member& member : members_) {
+    std::uint32_t found = 0;
+    const std::uint64_t end = std::min<std::uint64_t>(page + member.record.pages,
+                                                      parts.page_count());
+    for (; page < end; ++page)
+      found |= layer_of(parts.header()->kind_of(static_cast<std::uint32_t>(page)));
+    layers.push_back(found);
+  }
+  return layers;
+}
+
+Json SetSurvey::json(const FileParts& parts) const {
+  Json list = Json::array();
+  const std::vector<std::uint32_t> layers = this->layers(parts);
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    const storage::SetMember& member = members_[i].record;
+    Json json = {{"address", member.address},
+                 {"bytes", member.bytes},
+                 {"pages", member.pages},
+                 {"layers", layers[i] == 0 ? std::vector<std::string>() : layer_words(layers[i])},
+                 {"box", nullptr},
+                 {"fault", nullptr}};
+    if (member.box) json["box"] = {member.box->lower, member.box->upper};
+    if (members_[i].fault) json["fault"] = members_[i].fault->text;
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
+std::string SetSurvey::text(const FileParts& parts) const {
+  std::string text;
+  const std::vector<std::uint32_t> layers = this->layers(parts);
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    const storage::SetMember& member = members_[i].record;
+    const std::string pages = member.pages == 0
+                                  ? "headers and directory"
+                                  : fmt::format("{} pages: {}", grouped_count(member.pages),
+                                                layers_text(layers[i]));
+    const std::string box = member.box ? fmt::format("; box {} to {}", corner_text(member.box->lower),
+                                                     corner_text(member.box->upper))
+                                       : std::string();
+    text += fmt::format("  member {:<4} {}, {}, {}{}{}\n", i, member.address,
+                        short_bytes(member.bytes), pages, box,
+                        members_[i].fault ? "; missing or damaged" : "");
+  }
+  return text;
+}
+
+}  // namespace planetree::tools

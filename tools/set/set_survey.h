@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planetree/error.h"
+#include "storage/http/http_options.h"
+#include "storage/set/set_record.h"
+#include "tools/check/file_parts.h"
+#include "tools/check/issue.h"
+
+namespace planetree::tools {
+
+/// The members of a set, and what is wrong with them.
+class SetSurvey {
+ public:
+  /// Looks for the members. Returns nothing if `path` names a file rather than a set.
+  ///
+  /// http    for URLs
+  /// hashes  whether to read all members and compare their hashes
+  /// errors  those of storage::open_set()
+  static Result<std::optional<SetSurvey>> of(const std::filesystem::path& path,
+                                             const storage::HttpOptions& http, bool hashes);
+
+  /// Adds to the issues of `parts`, the set as a file: members that are missing or damaged, and
+  /// where the record is not that of the file.
+  void add_issues(FileParts& parts) const;
+  /// A list of objects, with the layers whose pages a member has.
+  nlohmann::ordered_json json(const FileParts& parts) const;
+  /// A line for each member.
+  std::string text(const FileParts& parts) const;
+
+ private:
+  struct Member {
+    storage::SetMember record;
+    std::optional<Error> fault;
+  };
+
+  bool counts_pages(const FileParts& parts) const;
+  std::vector<std::uint32_t> layers(const FileParts& parts) const;
+
+  storage::Hash128 content_id_{};
+  std::vector<Member> members_;
+};
+
+}  // namespace planetree::tools
