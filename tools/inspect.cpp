@@ -274,8 +274,8 @@ void add_inspect(CLI::App& app, Console& console, std::function<int()>& action) 
   };
   const auto options = std::make_shared<Options>();
   InspectArguments& arguments = options->arguments;
-  SubcommandOptions subcommand(app, "inspect",
-                               "Show the contents of a .ptree file or a set, also of a damaged one");
+  SubcommandOptions subcommand(
+      app, "inspect", "Show the contents of a .ptree file or a set, also of a damaged one");
   subcommand.require(
       subcommand.path("file", "FILE", arguments.file, "File or set to inspect, or a URL of one"));
   subcommand.flag("--levels", arguments.levels,

@@ -30,7 +30,7 @@ struct InspectArguments {
   BoundsArguments bounds;  ///< likewise, if it has an output
   std::optional<Vec3> why;
   SourceChoice source;  ///< for a URL or a set
-  PageChoice html;             ///< page to write; --force is also for the picture and the bounds
+  PageChoice html;      ///< page to write; --force is also for the picture and the bounds
   bool json = false;
   bool quiet = false;
 };

@@ -223,8 +223,8 @@ struct BuildOptions {
   /// Minimum of `memory_bytes`; it suffices for one thread.
   static constexpr std::uint64_t kMinMemoryBytes = std::uint64_t{160} << 20;
   static constexpr std::uint64_t kMinMemberBytes = 65536;  ///< minimum of `member_bytes`, except 0
-  static constexpr std::uint32_t kMinPageBytes = 4096;    ///< minimum of `page_bytes`
-  static constexpr std::uint32_t kMaxPageBytes = 262144;  ///< maximum of `page_bytes`
+  static constexpr std::uint32_t kMinPageBytes = 4096;     ///< minimum of `page_bytes`
+  static constexpr std::uint32_t kMaxPageBytes = 262144;   ///< maximum of `page_bytes`
 };
 
 /// What was built.
@@ -273,11 +273,11 @@ struct BuildReport {
   bool watertight() const noexcept { return unbalanced_edges == 0; }
 };
 
-/// Builds the .ptree file of a mesh, or a set. It appears under its name when it is complete. After an
-/// error or a cancelled build an earlier file of that name is unchanged, and no new file is left,
-/// except for the checkpoint of BuildOptions::resume. The bytes of the file depend on the input,
-/// `page_bytes`, `box`, `side`, `layers`, `keep`, `value_property`, `float64`, `metadata`, and the
-/// releases of planetree and LZ4, and on nothing else.
+/// Builds the .ptree file of a mesh, or a set. It appears under its name when it is complete. After
+/// an error or a cancelled build an earlier file of that name is unchanged, and no new file is
+/// left, except for the checkpoint of BuildOptions::resume. The bytes of the file depend on the
+/// input, `page_bytes`, `box`, `side`, `layers`, `keep`, `value_property`, `float64`, `metadata`,
+/// and the releases of planetree and LZ4, and on nothing else.
 ///
 /// input    triangles in any order. Records that cannot be used are skipped and counted.
 /// output   the file, or the record of the set. Its directory must exist.

@@ -123,21 +123,23 @@ struct OpenOptions {
   static constexpr std::uint32_t kMaxPageTraceCapacity = std::uint32_t{1} << 24;
 };
 
-/// An opened .ptree file, or an opened set of files. Its contents do not change. Any number of threads may share a model, each
-/// with a Probe of its own. A model can be moved; its probes and the reference that info() returned
-/// stay valid. The model, or the one it was moved to, must outlive its probes.
+/// An opened .ptree file, or an opened set of files. Its contents do not change. Any number of
+/// threads may share a model, each with a Probe of its own. A model can be moved; its probes and
+/// the reference that info() returned stay valid. The model, or the one it was moved to, must
+/// outlive its probes.
 ///
-/// The files must not be written to or truncated while they are open: pages read later then count as
-/// damaged. It may be removed or replaced by another file, because the model keeps the one that it
-/// opened. A process made by fork() must not use the model, because the model's threads do not run
-/// there.
+/// The files must not be written to or truncated while they are open: pages read later then count
+/// as damaged. It may be removed or replaced by another file, because the model keeps the one that
+/// it opened. A process made by fork() must not use the model, because the model's threads do not
+/// run there.
 class PLANETREE_API Model {
  public:
   /// Opens and checks a file, allocates and locks the memory, reads the root page, and starts the
   /// threads. If the side layer is opened, also reads the upper cells of the mask into the side
   /// grid. If the field layer is opened, also reads the field.
   ///
-  /// path     a regular file, or a URL that starts with `http://` or `https://`. If its name ends in
+  /// path     a regular file, or a URL that starts with `http://` or `https://`. If its name ends
+  /// in
   ///          `.ptreeset`, it is the record of a set. The members of a set are opened too; it
   ///          answers as the one file does, bit for bit. A server must serve ranges of bytes; its
   ///          model answers as one of the file does, bit for bit. Of a large one, neither the field

@@ -133,7 +133,8 @@ Result<FileHeader> PageWriter::finish(const ModelRecord& model, std::uint32_t pa
     return fail(error);
   }
   if (const Result<void> written = write_out(header); !written) return fail(written.error());
-  if (const Result<void> committed = output_->commit(header, entries_); !committed) return fail(committed.error());
+  if (const Result<void> committed = output_->commit(header, entries_); !committed)
+    return fail(committed.error());
   fail(bad_argument(Error::kNowhere, "the file is finished; create another writer"));
   return header;
 }

@@ -87,8 +87,8 @@ std::size_t NewSet::write_bytes() const noexcept {
 Result<void> NewSet::write_at(std::uint64_t offset, std::span<const std::byte> bytes) {
   if (offset < pages_start_) return members_.front().file.write_at(offset, bytes);
   const bool is_full = members_.back().bytes > 0 &&
-                       bytes.size() > division_.member_bytes - std::min(division_.member_bytes,
-                                                                        members_.back().bytes);
+                       bytes.size() > division_.member_bytes -
+                                          std::min(division_.member_bytes, members_.back().bytes);
   if (is_full)
     if (const auto added = add_member(); !added) return added;
   NewMember& member = members_.back();
@@ -164,8 +164,7 @@ NewSet::Names NewSet::members_of_record() const {
   if (!record) return names;
   for (const SetMember& member : record->members)
     if (member.address.starts_with(path_.stem().string() + ".") &&
-        member.address.ends_with(kMemberExtension) &&
-        member.address.find('/') == std::string::npos)
+        member.address.ends_with(kMemberExtension) && member.address.find('/') == std::string::npos)
       names.push_back(member.address);
   return names;
 }

@@ -31,8 +31,8 @@ Result<std::unique_ptr<SetSource>> read_set(const std::filesystem::path& path,
     if (!member) return member.error();
     return open_source(*member, http, calls);
   };
-  auto set = std::make_unique<SetSource>(*std::move(record), remote,
-                                         std::string((*file)->name()), open);
+  auto set =
+      std::make_unique<SetSource>(*std::move(record), remote, std::string((*file)->name()), open);
   if (!remote && !options.allows_missing_members)
     if (const auto opened = set->open_all(); !opened) return opened.error();
   return set;

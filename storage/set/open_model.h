@@ -27,8 +27,8 @@ Result<std::unique_ptr<SetSource>> open_set(const std::filesystem::path& path,
                                             const ModelSourceOptions& options = {},
                                             FileCalls& calls = FileCalls::real());
 
-/// Opens the bytes of a model: of a .ptree file, or of a set, which is known by its name. Either may
-/// be a file of this machine, or what a URL of HTTP names.
+/// Opens the bytes of a model: of a .ptree file, or of a set, which is known by its name. Either
+/// may be a file of this machine, or what a URL of HTTP names.
 ///
 /// calls   for files; must outlive the source
 /// errors  those of open_source() or open_set()

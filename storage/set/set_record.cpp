@@ -19,9 +19,9 @@ Error refusal(ErrorCode code, const char* cause) {
 }
 
 Error damaged(const char* cause) {
-  return make_error(ErrorCode::kDamaged, Error::kNowhere, Error::kNowhere,
-                    "the record of the set is damaged: %s; restore it from a copy or build it again",
-                    cause);
+  return make_error(
+      ErrorCode::kDamaged, Error::kNowhere, Error::kNowhere,
+      "the record of the set is damaged: %s; restore it from a copy or build it again", cause);
 }
 
 std::string hex(std::uint64_t value) {

@@ -80,8 +80,8 @@ Result<void> SetSource::read_pieces(std::uint64_t offset, std::span<std::byte> o
   for_each_piece({offset, out.size()}, [&](const Piece& piece, std::uint64_t done) {
     const auto source = open_member(piece.member);
     if (source) {
-      const auto bytes = out.subspan(static_cast<std::size_t>(done),
-                                     static_cast<std::size_t>(piece.bytes));
+      const auto bytes =
+          out.subspan(static_cast<std::size_t>(done), static_cast<std::size_t>(piece.bytes));
       const Result<void> got = read(**source, piece.offset, bytes);
       if (!got) result = named(piece.member, got.error());
     } else {

@@ -32,8 +32,8 @@ struct TouchArguments {
   PageChoice page;                    ///< page to write, and whether files may be replaced
   bool cold = false;                  ///< drop the file from the system's page cache first
   bool no_io_uring = false;
-  SourceChoice source;  ///< for a URL or a set
-  bool read_ahead = false;     ///< OpenOptions::read_ahead of the session
+  SourceChoice source;      ///< for a URL or a set
+  bool read_ahead = false;  ///< OpenOptions::read_ahead of the session
   bool json = false;
 };
 

@@ -114,8 +114,8 @@ std::vector<std::uint32_t> SetSurvey::layers(const FileParts& parts) const {
   std::uint64_t page = 0;
   for (const Member& member : members_) {
     std::uint32_t found = 0;
-    const std::uint64_t end = std::min<std::uint64_t>(page + member.record.pages,
-                                                      parts.page_count());
+    const std::uint64_t end =
+        std::min<std::uint64_t>(page + member.record.pages, parts.page_count());
     for (; page < end; ++page)
       found |= layer_of(parts.header()->kind_of(static_cast<std::uint32_t>(page)));
     layers.push_back(found);
@@ -146,16 +146,17 @@ std::string SetSurvey::text(const FileParts& parts) const {
   const std::vector<std::uint32_t> layers = this->layers(parts);
   for (std::size_t i = 0; i < members_.size(); ++i) {
     const storage::SetMember& member = members_[i].record;
-    const std::string pages = member.pages == 0
-                                  ? "headers and directory"
-                                  : fmt::format("{} pages: {}", grouped_count(member.pages),
-                                                layers_text(layers[i]));
-    const std::string box = member.box ? fmt::format("; box {} to {}", corner_text(member.box->lower),
-                                                     corner_text(member.box->upper))
-                                       : std::string();
-    text += fmt::format("  member {:<4} {}, {}, {}{}{}\n", i, member.address,
-                        short_bytes(member.bytes), pages, box,
-                        members_[i].fault ? "; missing or damaged" : "");
+    const std::string pages =
+        member.pages == 0
+            ? "headers and directory"
+            : fmt::format("{} pages: {}", grouped_count(member.pages), layers_text(layers[i]));
+    const std::string box = member.box
+                                ? fmt::format("; box {} to {}", corner_text(member.box->lower),
+                                              corner_text(member.box->upper))
+                                : std::string();
+    text +=
+        fmt::format("  member {:<4} {}, {}, {}{}{}\n", i, member.address, short_bytes(member.bytes),
+                    pages, box, members_[i].fault ? "; missing or damaged" : "");
   }
   return text;
 }

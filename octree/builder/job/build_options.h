@@ -39,7 +39,7 @@ struct BuildOptions {
   /// input and options left.
   bool resume = false;
   std::uint64_t member_bytes = 0;  ///< 0: one file; else a set, see planetree::BuildOptions
-  Metadata metadata;  ///< as in the file; without a generator there is none
+  Metadata metadata;               ///< as in the file; without a generator there is none
 
   bool has_side_layer() const { return (layers & kSideLayer) != 0; }
   /// What the file keeps: `keep`, with the links that all attributes need.

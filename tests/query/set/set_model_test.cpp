@@ -215,8 +215,7 @@ TEST(SetModels, OpenWithoutMembersIfAllowed) {
   EXPECT_GT(degraded, 100u);
   const auto error = set.read_error();
   ASSERT_TRUE(error);
-  EXPECT_NE(std::string(error->text).find(both.members()[4].filename().string()),
-            std::string::npos)
+  EXPECT_NE(std::string(error->text).find(both.members()[4].filename().string()), std::string::npos)
       << error->text;
 }
 

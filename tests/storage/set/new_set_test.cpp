@@ -126,9 +126,10 @@ TEST_F(NewSets, AreWholeOrAbsentAfterEachFault) {
         calls.lacks_unnamed_files = lacks_unnamed_files;
         const auto written = write_set(sample_, path_, 1000, replaces, calls);
         SCOPED_TRACE(std::to_string(fault_at) + " " + calls.failed_call());
-        // A fault while the directory is synced, or while old members are removed, is after the end.
-        const bool is_new =
-            std::filesystem::exists(path_) && record_of(path_).members.size() > 4 && joined() == expected;
+        // A fault while the directory is synced, or while old members are removed, is after the
+        // end.
+        const bool is_new = std::filesystem::exists(path_) && record_of(path_).members.size() > 4 &&
+                            joined() == expected;
         if (written) {
           EXPECT_TRUE(is_new);
         } else if (!is_new) {

@@ -14,7 +14,10 @@ SetRecord sample_record() {
   SetRecord record;
   record.content_id = {0x0123456789abcdef, 0xfedcba9876543210};
   record.members.push_back({"a.000.part", 2048, {1, 2}, 0, {}});
-  record.members.push_back({"folder/b \"c\".part", std::uint64_t{1} << 40, {3, ~std::uint64_t{0}}, 7,
+  record.members.push_back({"folder/b \"c\".part",
+                            std::uint64_t{1} << 40,
+                            {3, ~std::uint64_t{0}},
+                            7,
                             MemberBox{{-1.5, 0.1, -1e300}, {1, 2, 5e-324}}});
   return record;
 }
