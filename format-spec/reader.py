@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A reader of .ptree files, version 1.0, written from v1/spec.md.
+"""A reader of .ptree files and sets, version 1.0, written from v1/spec.md and set-v1/spec.md.
 
     reader.py FILE                       what the file holds
     reader.py FILE --answers POINTS      nearest triangles, sides, and triangles by index
@@ -212,13 +212,26 @@ Entry = namedtuple("Entry", "check octcode stored_bytes raw_bytes offset")      
 EXTENSION = "name 24s  offset Q  bytes Q  check Q  required B  reserved 15s"
 
 
+def parts_of(path: str) -> list[tuple[str, int]]:
+    """The files whose bytes are those of the model, joined, and their lengths. See set-v1/spec.md."""
+    if not path.lower().endswith(".ptreeset"):
+        return [(path, os.path.getsize(path))]
+    with open(path, encoding="utf-8") as stream:
+        members = json.load(stream)["members"]
+    parts = [(os.path.join(os.path.dirname(path), x["address"]), x["bytes"]) for x in members]
+    for part, length in parts:
+        require(os.path.getsize(part) == length, f"{part} has another length", "SET")
+    return parts
+
+
 class File:
-    """An open file. With a list of issues, as checker.py gives it, opening goes on after an issue
+    """An open file or set. With a list of issues, as checker.py gives it, opening goes on after an issue
     as long as it can."""
 
     def __init__(self, path: str, issues: list[Issue] | None = None):
         require(os.path.isfile(path) or not os.path.exists(path), "no file", "NOT_PLANETREE")
-        self.issues, self.path, self.length = issues, path, os.path.getsize(path)
+        self.issues, self.parts = issues, parts_of(path)            # paths and lengths
+        self.length = sum(length for _, length in self.parts)
         self.pages: dict[int, Any] = {}                             # or the issue of a page
         h = self.header = self.choose_header()
         require(h.version >> 8 == 1 and h.incompatible_features == 0,
@@ -253,9 +266,14 @@ class File:
             self.issues.append(Issue(code, message, page))
 
     def read(self, at: int, count: int) -> bytes:
-        with open(self.path, "rb") as stream:
-            stream.seek(at)
-            return stream.read(count)
+        data = b""
+        for path, length in self.parts:
+            if at < length and len(data) < count:
+                with open(path, "rb") as stream:
+                    stream.seek(at)
+                    data += stream.read(min(count - len(data), length - at))
+            at = max(at - length, 0)
+        return data
 
     def choose_header(self) -> Header:
         """2.3, step 1."""

@@ -196,7 +196,7 @@ struct BuildOptions {
   /// What the file says of the model; see Metadata. `generator` is set to the release of planetree
   /// unless it is given. A key with an empty value is left out.
   Metadata metadata;
-  /// 0: the output is one file. Else it is a set: its record, whose name ends in `.ptreeset`, and
+  /// 0: the output is one file. Else it is a set: a set file, whose name ends in `.ptreeset`, and
   /// beside it members of up to so many bytes, at least kMinMemberBytes. The members, joined, are
   /// the file that 0 gives. They are longer if there would be more than 256, or if the directory of
   /// the file is.
@@ -280,7 +280,7 @@ struct BuildReport {
 /// and the releases of planetree and LZ4, and on nothing else.
 ///
 /// input    triangles in any order. Records that cannot be used are skipped and counted.
-/// output   the file, or the record of the set. Its directory must exist.
+/// output   the file, or the set file. Its directory must exist.
 /// errors   kBadArgument: an option is out of range, no triangle touches the box, or `output` is
 ///          a directory or the input. kAlreadyExists: the file exists and `replace` is not set.
 ///          kNotFound: a file or directory does not exist. kPermission: it is not accessible.

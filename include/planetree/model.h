@@ -140,7 +140,7 @@ class PLANETREE_API Model {
   ///
   /// path     a regular file, or a URL that starts with `http://` or `https://`. If its name ends
   /// in
-  ///          `.ptreeset`, it is the record of a set. The members of a set are opened too; it
+  ///          `.ptreeset`, it is a set file. The members of a set are opened too; it
   ///          answers as the one file does, bit for bit. A server must serve ranges of bytes; its
   ///          model answers as one of the file does, bit for bit. Of a large one, neither the field
   ///          nor the side grid is read at open. The budget then includes 16.5 MiB for clusters and

@@ -7,7 +7,7 @@
 
 #include "octree/geometry/strict_math.h"
 #include "storage/set/new_set.h"
-#include "storage/set/set_record.h"
+#include "storage/set/set_description.h"
 
 namespace planetree::octree {
 namespace {
@@ -34,7 +34,7 @@ storage::MemberBox input_box(const FloatBox& box, const ModelFrame& frame) {
 // page is stored longer than it is decoded.
 std::uint64_t member_bytes(const BuildOptions& options, std::uint32_t page_count) {
   constexpr std::uint64_t kSpare = 4;  // before the pages, behind them, and for rounding
-  constexpr std::uint64_t kPairs = (storage::SetRecord::kMaxMembers - kSpare) / 2;
+  constexpr std::uint64_t kPairs = (storage::SetDescription::kMaxMembers - kSpare) / 2;
   return std::max(options.member_bytes, std::uint64_t{page_count} * options.page_bytes / kPairs);
 }
 

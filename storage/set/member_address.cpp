@@ -2,7 +2,7 @@
 
 #include "storage/http/http_url.h"
 #include "storage/http/letter_case.h"
-#include "storage/set/set_record.h"
+#include "storage/set/set_description.h"
 
 namespace planetree::storage {
 namespace {
@@ -40,7 +40,7 @@ std::string escaped(std::string_view address) {
 
 bool is_set_name(std::string_view path) {
   if (is_http_url(path)) path = without_query(path);
-  constexpr std::string_view kExtension = SetRecord::kExtension;
+  constexpr std::string_view kExtension = SetDescription::kExtension;
   return path.size() > kExtension.size() &&
          equals_in_any_case(path.substr(path.size() - kExtension.size()), kExtension);
 }

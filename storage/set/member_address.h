@@ -14,9 +14,9 @@ namespace planetree::storage {
 
 /// Returns the path or the URL of a member.
 ///
-/// set      path or URL of the set's record
-/// address  of the member, as the record has it
-/// errors   kUnsupported: a record on a server names a file of this machine
+/// set      path or URL of the set file
+/// address  of the member, as the set file has it
+/// errors   kUnsupported: a set file on a server names a file of this machine
 Result<std::filesystem::path> member_path(const std::filesystem::path& set,
                                           const std::string& address);
 

@@ -38,17 +38,17 @@ Result<std::unique_ptr<ModelOutput>> NewSet::create(const std::filesystem::path&
     return bad_argument("the name of a set ends in .ptreeset; give it such a name");
   if (!is_utf8(path.stem().string()))
     return bad_argument("the name of a set has to be UTF-8; give it another name");
-  auto record = NewFile::create(path, replace, calls);
-  if (!record) return record.error();
+  auto description = NewFile::create(path, replace, calls);
+  if (!description) return description.error();
   return std::unique_ptr<ModelOutput>(
-      new NewSet(path, std::move(division), *std::move(record), replace, calls));
+      new NewSet(path, std::move(division), *std::move(description), replace, calls));
 }
 
-NewSet::NewSet(std::filesystem::path path, SetDivision division, NewFile record, bool replace,
+NewSet::NewSet(std::filesystem::path path, SetDivision division, NewFile description, bool replace,
                FileCalls& calls)
     : path_(std::move(path)),
       division_(std::move(division)),
-      record_file_(std::move(record)),
+      set_file_(std::move(description)),
       replace_(replace),
       calls_(calls) {}
 
@@ -60,7 +60,7 @@ std::string NewSet::name_of(const Hash128& id, std::size_t member) const {
 }
 
 Result<void> NewSet::add_member() {
-  if (members_.size() == SetRecord::kMaxMembers)
+  if (members_.size() == SetDescription::kMaxMembers)
     return bad_argument("a set has at most 256 members; give a larger size of members");
   // It gets its name when the content id is known.
   auto file = NewFile::create(folder() / name_of({}, members_.size()), true, calls_);
@@ -112,66 +112,69 @@ Result<void> NewSet::hash_first_member() {
 
 Result<void> NewSet::commit(const FileHeader& header, std::span<const DirectoryPage> pages) {
   if (const auto hashed = hash_first_member(); !hashed) return hashed;
-  const SetRecord record = describe(header, pages);
-  const Names earlier = replace_ ? members_of_record() : Names();
-  const std::string text = record.text();
-  const auto written = record_file_.write_at(0, std::as_bytes(std::span(text)));
+  const SetDescription description = describe(header, pages);
+  const Names earlier = replace_ ? members_of_set_file() : Names();
+  const std::string text = description.text();
+  const auto written = set_file_.write_at(0, std::as_bytes(std::span(text)));
   if (!written) return written;
   Names names;
-  const auto published = publish(record, names);
-  // A failed commit may have replaced the record. Members that it names then stay.
+  const auto published = publish(description, names);
+  // A failed commit may have replaced the set file. Members that it names then stay.
   remove_members(published ? earlier : names);
   return published;
 }
 
 /// names  receives the names that members have by now
-Result<void> NewSet::publish(const SetRecord& record, Names& names) {
+Result<void> NewSet::publish(const SetDescription& description, Names& names) {
   for (std::size_t i = 0; i < members_.size(); ++i) {
-    names.push_back(record.members[i].address);
+    names.push_back(description.members[i].address);
     members_[i].file.rename(names.back());
     if (const auto committed = members_[i].file.commit(); !committed) return committed;
   }
-  return record_file_.commit();
+  return set_file_.commit();
 }
 
-SetRecord NewSet::describe(const FileHeader& header, std::span<const DirectoryPage> pages) const {
-  SetRecord record;
-  record.content_id = {header.content_id[0], header.content_id[1]};
+SetDescription NewSet::describe(const FileHeader& header,
+                                std::span<const DirectoryPage> pages) const {
+  SetDescription description;
+  description.content_id = {header.content_id[0], header.content_id[1]};
   std::uint64_t end = 0, page_end = 0;  // of the member and of the pages so far
   std::uint32_t page = 0;
   for (const NewMember& member : members_) {
     // The pages are behind the first member.
-    end += record.members.empty() ? 0 : member.bytes;
+    end += description.members.empty() ? 0 : member.bytes;
     const std::uint32_t first = page;
     for (; page < pages.size() && page_end + pages[page].stored_bytes <= end; ++page)
       page_end += pages[page].stored_bytes;
-    record.members.push_back({.address = name_of(record.content_id, record.members.size()),
-                              .bytes = member.bytes,
-                              .hash = member.hasher.value(),
-                              .pages = page - first,
-                              .box = division_.box_of_pages(first, page)});
+    description.members.push_back(
+        {.address = name_of(description.content_id, description.members.size()),
+         .bytes = member.bytes,
+         .hash = member.hasher.value(),
+         .pages = page - first,
+         .box = division_.box_of_pages(first, page)});
   }
   assert(page == pages.size());
-  return record;
+  return description;
 }
 
-/// Names of members that the record under the name of this one has, as far as they are beside it
+/// Names of members that the set file under the name of this one has, as far as they are beside it
 /// and named like its members.
-NewSet::Names NewSet::members_of_record() const {
+NewSet::Names NewSet::members_of_set_file() const {
   Names names;
   const auto file = open_file_source(path_.c_str(), calls_);
-  const auto record = file ? SetRecord::read(**file) : Result<SetRecord>(file.error());
-  if (!record) return names;
-  for (const SetMember& member : record->members)
+  const auto description =
+      file ? SetDescription::read(**file) : Result<SetDescription>(file.error());
+  if (!description) return names;
+  for (const SetMember& member : description->members)
     if (member.address.starts_with(path_.stem().string() + ".") &&
         member.address.ends_with(kMemberExtension) && member.address.find('/') == std::string::npos)
       names.push_back(member.address);
   return names;
 }
 
-/// Removes members, but not those of the record. A name that cannot be removed is left.
+/// Removes members, but not those of the set file. A name that cannot be removed is left.
 void NewSet::remove_members(const Names& names) const {
-  const Names kept = members_of_record();
+  const Names kept = members_of_set_file();
   for (const std::string& name : names)
     if (std::find(kept.begin(), kept.end(), name) == kept.end())
       calls_.unlinkat(AT_FDCWD, (folder() / name).c_str(), 0);

@@ -12,7 +12,7 @@
 #include "planetree/error.h"
 #include "storage/file/checksum.h"
 #include "storage/file/model_output.h"
-#include "storage/set/set_record.h"
+#include "storage/set/set_description.h"
 #include "storage/system/file_calls.h"
 #include "storage/system/new_file.h"
 
@@ -26,17 +26,16 @@ struct SetDivision {
   std::function<std::optional<MemberBox>(std::uint32_t first, std::uint32_t end)> box_of_pages;
 };
 
-/// A new set: members beside their record. The first member has what is before the pages. The names
-/// of members contain the content id, so that they never replace those of another model.
+/// A new set: members beside their set file. The first member has what is before the pages. The
+/// names of members contain the content id, so that they never replace those of another model.
 ///
-/// All members are durable under their names before the record appears. Before that, a failure
+/// All members are durable under their names before the set file appears. Before that, a failure
 /// leaves nothing, and a killed process leaves members at most, which a later build of the same
-/// model replaces. When the record of an earlier set is replaced, the members of that set beside it
-/// are removed.
-/// threads  one at a time
+/// model replaces. When the set file of an earlier set is replaced, the members of that set beside
+/// it are removed. threads  one at a time
 class NewSet final : public ModelOutput {
  public:
-  /// path     of the record
+  /// path     of the set file
   /// replace  whether a file there may be replaced
   /// calls    the system; must outlive the set
   /// errors   kBadArgument: the name is none of a set, or is no UTF-8; those of NewFile::create()
@@ -58,20 +57,20 @@ class NewSet final : public ModelOutput {
     Hasher hasher;
   };
 
-  NewSet(std::filesystem::path path, SetDivision division, NewFile record, bool replace,
+  NewSet(std::filesystem::path path, SetDivision division, NewFile description, bool replace,
          FileCalls& calls);
   std::filesystem::path folder() const;
   std::string name_of(const Hash128& id, std::size_t member) const;
   Result<void> add_member();
   Result<void> hash_first_member();
-  Result<void> publish(const SetRecord& record, Names& names);
-  SetRecord describe(const FileHeader& header, std::span<const DirectoryPage> pages) const;
-  Names members_of_record() const;
+  Result<void> publish(const SetDescription& description, Names& names);
+  SetDescription describe(const FileHeader& header, std::span<const DirectoryPage> pages) const;
+  Names members_of_set_file() const;
   void remove_members(const Names& names) const;
 
   const std::filesystem::path path_;
   const SetDivision division_;
-  NewFile record_file_;
+  NewFile set_file_;
   const bool replace_;
   FileCalls& calls_;
   std::uint64_t pages_start_ = 0;

@@ -7,14 +7,14 @@
 #include "storage/http/http_url.h"
 #include "storage/http/open_source.h"
 #include "storage/set/member_address.h"
-#include "storage/set/set_record.h"
+#include "storage/set/set_description.h"
 
 namespace planetree::storage {
 namespace {
 
-bool is_remote(const std::filesystem::path& set, const SetRecord& record) {
+bool is_remote(const std::filesystem::path& set, const SetDescription& description) {
   return is_http_url(set.native()) ||
-         std::any_of(record.members.begin(), record.members.end(),
+         std::any_of(description.members.begin(), description.members.end(),
                      [](const SetMember& member) { return is_http_url(member.address); });
 }
 
@@ -22,17 +22,17 @@ Result<std::unique_ptr<SetSource>> read_set(const std::filesystem::path& path,
                                             const ModelSourceOptions& options, FileCalls& calls) {
   const auto file = open_source(path, options.http, calls);
   if (!file) return file.error();
-  auto record = SetRecord::read(**file);
-  if (!record) return record.error();
-  const bool remote = is_remote(path, *record);
+  auto description = SetDescription::read(**file);
+  if (!description) return description.error();
+  const bool remote = is_remote(path, *description);
   const auto open = [path, http = options.http,
                      &calls](const std::string& address) -> Result<std::unique_ptr<ByteSource>> {
     const auto member = member_path(path, address);
     if (!member) return member.error();
     return open_source(*member, http, calls);
   };
-  auto set =
-      std::make_unique<SetSource>(*std::move(record), remote, std::string((*file)->name()), open);
+  auto set = std::make_unique<SetSource>(*std::move(description), remote,
+                                         std::string((*file)->name()), open);
   if (!remote && !options.allows_missing_members)
     if (const auto opened = set->open_all(); !opened) return opened.error();
   return set;

@@ -20,9 +20,9 @@ struct ModelSourceOptions {
 
 /// Opens a set. Members on servers are opened when they are first read.
 ///
-/// path    of its record, whatever its name, or a URL
+/// path    of its set file, whatever its name, or a URL
 /// calls   for files; must outlive the source
-/// errors  those of open_source(), SetRecord::read() and SetSource::open_all()
+/// errors  those of open_source(), SetDescription::read() and SetSource::open_all()
 Result<std::unique_ptr<SetSource>> open_set(const std::filesystem::path& path,
                                             const ModelSourceOptions& options = {},
                                             FileCalls& calls = FileCalls::real());

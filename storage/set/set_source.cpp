@@ -7,19 +7,19 @@
 
 namespace planetree::storage {
 
-SetSource::SetSource(SetRecord record, bool remote, std::string name, Open open)
-    : record_(std::move(record)),
+SetSource::SetSource(SetDescription description, bool remote, std::string name, Open open)
+    : description_(std::move(description)),
       remote_(remote),
       name_(std::move(name)),
       open_(std::move(open)),
-      sources_(record_.members.size()),
-      owned_(record_.members.size()) {
+      sources_(description_.members.size()),
+      owned_(description_.members.size()) {
   std::uint64_t end = 0;
-  for (const SetMember& member : record_.members) ends_.push_back(end += member.bytes);
+  for (const SetMember& member : description_.members) ends_.push_back(end += member.bytes);
 }
 
 Result<void> SetSource::open_all() const {
-  for (std::size_t i = 0; i < record_.members.size(); ++i)
+  for (std::size_t i = 0; i < description_.members.size(); ++i)
     if (const auto source = open_member(i); !source) return source.error();
   return {};
 }
@@ -28,7 +28,7 @@ Result<const ByteSource*> SetSource::open_member(std::size_t member) const {
   if (const ByteSource* const source = opened(member)) return source;
   const std::lock_guard one(opening_);
   if (const ByteSource* const source = opened(member)) return source;
-  const SetMember& expected = record_.members[member];
+  const SetMember& expected = description_.members[member];
   auto source = open_(expected.address);
   if (!source) return named(member, source.error());
   if ((*source)->size_bytes() != expected.bytes)
@@ -47,7 +47,7 @@ const ByteSource* SetSource::opened(std::size_t member) const noexcept {
 
 Error SetSource::named(std::size_t member, const Error& error) const noexcept {
   return make_error(error.code, error.page, error.offset, "member %s: %s",
-                    record_.members[member].address.c_str(), error.text);
+                    description_.members[member].address.c_str(), error.text);
 }
 
 SetSource::Piece SetSource::piece_at(const ByteRange& range) const noexcept {
@@ -119,7 +119,7 @@ bool SetSource::try_read(std::uint64_t offset, std::span<std::byte> out,
 
 void SetSource::prefetch(std::span<const ByteRange> ranges) const noexcept {
   try {
-    std::vector<std::vector<ByteRange>> of_member(record_.members.size());
+    std::vector<std::vector<ByteRange>> of_member(description_.members.size());
     for (const ByteRange& range : ranges) {
       if (range.offset > size_bytes() || range.bytes > size_bytes() - range.offset) continue;
       for_each_piece(range, [&](const Piece& piece, std::uint64_t) {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "planetree/error.h"
-#include "storage/set/set_record.h"
+#include "storage/set/set_description.h"
 #include "storage/system/byte_source.h"
 
 namespace planetree::storage {
@@ -28,9 +28,9 @@ class SetSource final : public ByteSource {
 
   /// remote  whether a member is on another machine
   /// name    see ByteSource::name()
-  SetSource(SetRecord record, bool remote, std::string name, Open open);
+  SetSource(SetDescription description, bool remote, std::string name, Open open);
 
-  const SetRecord& record() const noexcept { return record_; }
+  const SetDescription& description() const noexcept { return description_; }
   /// Opens all members. Returns the first error, whose text names the member.
   ///
   /// errors  those of Open; kTruncated: a member does not have its length
@@ -67,7 +67,7 @@ class SetSource final : public ByteSource {
   const ByteSource* opened(std::size_t member) const noexcept;
   Error named(std::size_t member, const Error& error) const noexcept;
 
-  const SetRecord record_;
+  const SetDescription description_;
   const bool remote_;
   const std::string name_;
   const Open open_;

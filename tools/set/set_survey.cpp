@@ -36,11 +36,11 @@ std::optional<Error> fault_of(const storage::SetSource& set, std::size_t number,
   if (!hashes) return {};
   const auto hash = hash_of(**member);
   if (!hash) return hash.error();
-  const storage::SetMember& record = set.record().members[number];
-  if (*hash == record.hash) return {};
+  const storage::SetMember& description = set.description().members[number];
+  if (*hash == description.hash) return {};
   return make_error(ErrorCode::kDamaged, Error::kNowhere, Error::kNowhere,
                     "member %s: its hash is wrong; copy it again, or build the set again",
-                    record.address.c_str());
+                    description.address.c_str());
 }
 
 // The layer that a kind of pages belongs to.
@@ -75,10 +75,10 @@ Result<std::optional<SetSurvey>> SetSurvey::of(const std::filesystem::path& path
   const auto set = storage::open_set(path, {http, true});
   if (!set) return set.error();
   SetSurvey survey;
-  const storage::SetRecord& record = (*set)->record();
-  survey.content_id_ = record.content_id;
-  for (std::size_t i = 0; i < record.members.size(); ++i)
-    survey.members_.push_back({record.members[i], fault_of(**set, i, hashes)});
+  const storage::SetDescription& description = (*set)->description();
+  survey.content_id_ = description.content_id;
+  for (std::size_t i = 0; i < description.members.size(); ++i)
+    survey.members_.push_back({description.members[i], fault_of(**set, i, hashes)});
   return std::optional(std::move(survey));
 }
 
@@ -88,17 +88,17 @@ void SetSurvey::add_issues(FileParts& parts) const {
   if (parts.page_count() == 0) return;
   const storage::FileHeader& header = *parts.header();
   if (content_id_ != storage::Hash128{header.content_id[0], header.content_id[1]})
-    parts.add_issue(issue_of("the content id of the record is not that of the first member"));
+    parts.add_issue(issue_of("the content id of the set file is not that of the first member"));
   if (!counts_pages(parts))
-    parts.add_issue(issue_of("the record counts pages in members that do not have them"));
+    parts.add_issue(issue_of("the set file counts pages in members that do not have them"));
 }
 
-// Each page is in the member in which the record counts it.
+// Each page is in the member in which the set file counts it.
 bool SetSurvey::counts_pages(const FileParts& parts) const {
   std::uint64_t page = 0, end = 0;
   for (const Member& member : members_) {
-    end += member.record.bytes;
-    page += member.record.pages;
+    end += member.description.bytes;
+    page += member.description.pages;
     if (page > parts.page_count()) return false;
     if (page > 0) {
       const storage::PageEntry& last = parts.entries()[page - 1];
@@ -115,7 +115,7 @@ std::vector<std::uint32_t> SetSurvey::layers(const FileParts& parts) const {
   for (const Member& member : members_) {
     std::uint32_t found = 0;
     const std::uint64_t end =
-        std::min<std::uint64_t>(page + member.record.pages, parts.page_count());
+        std::min<std::uint64_t>(page + member.description.pages, parts.page_count());
     for (; page < end; ++page)
       found |= layer_of(parts.header()->kind_of(static_cast<std::uint32_t>(page)));
     layers.push_back(found);
@@ -127,7 +127,7 @@ Json SetSurvey::json(const FileParts& parts) const {
   Json list = Json::array();
   const std::vector<std::uint32_t> layers = this->layers(parts);
   for (std::size_t i = 0; i < members_.size(); ++i) {
-    const storage::SetMember& member = members_[i].record;
+    const storage::SetMember& member = members_[i].description;
     Json json = {{"address", member.address},
                  {"bytes", member.bytes},
                  {"pages", member.pages},
@@ -145,7 +145,7 @@ std::string SetSurvey::text(const FileParts& parts) const {
   std::string text;
   const std::vector<std::uint32_t> layers = this->layers(parts);
   for (std::size_t i = 0; i < members_.size(); ++i) {
-    const storage::SetMember& member = members_[i].record;
+    const storage::SetMember& member = members_[i].description;
     const std::string pages =
         member.pages == 0
             ? "headers and directory"

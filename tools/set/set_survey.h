@@ -9,7 +9,7 @@
 
 #include "planetree/error.h"
 #include "storage/http/http_options.h"
-#include "storage/set/set_record.h"
+#include "storage/set/set_description.h"
 #include "tools/check/file_parts.h"
 #include "tools/check/issue.h"
 
@@ -27,7 +27,7 @@ class SetSurvey {
                                              const storage::HttpOptions& http, bool hashes);
 
   /// Adds to the issues of `parts`, the set as a file: members that are missing or damaged, and
-  /// where the record is not that of the file.
+  /// where the set file is not that of the file.
   void add_issues(FileParts& parts) const;
   /// A list of objects, with the layers whose pages a member has.
   nlohmann::ordered_json json(const FileParts& parts) const;
@@ -36,7 +36,7 @@ class SetSurvey {
 
  private:
   struct Member {
-    storage::SetMember record;
+    storage::SetMember description;
     std::optional<Error> fault;
   };
 

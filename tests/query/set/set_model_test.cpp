@@ -8,7 +8,7 @@
 
 #include "planetree/scene.h"
 #include "query/model_state.h"
-#include "storage/set/set_record.h"
+#include "storage/set/set_description.h"
 #include "tests/query/answer_bits.h"
 #include "tests/query/eventually.h"
 #include "tests/query/sample_model.h"
@@ -20,10 +20,10 @@ namespace {
 
 constexpr std::size_t kMembers = 8;
 
-storage::SetRecord record_of_set(const std::filesystem::path& path) {
-  const auto record = storage::SetRecord::parse(storage::read_bytes(path));
-  EXPECT_TRUE(record) << record.error().text;
-  return record ? *record : storage::SetRecord();
+storage::SetDescription description_of(const std::filesystem::path& path) {
+  const auto description = storage::SetDescription::parse(storage::read_bytes(path));
+  EXPECT_TRUE(description) << description.error().text;
+  return description ? *description : storage::SetDescription();
 }
 
 /// One model as a file and as a set of 8 members or more.
@@ -33,9 +33,9 @@ class FileAndSet {
     build_soup(soup, file(), options);
     options.member_bytes = BuildOptions::kMinMemberBytes;
     build_soup(soup, set(), options);
-    const storage::SetRecord record = record_of_set(set());
-    EXPECT_GE(record.members.size(), kMembers);
-    for (const storage::SetMember& member : record.members)
+    const storage::SetDescription description = description_of(set());
+    EXPECT_GE(description.members.size(), kMembers);
+    for (const storage::SetMember& member : description.members)
       members_.push_back(folder_ / member.address.c_str());
     options_.max_probes = 1;
     // Most pages are read more than once.
@@ -244,9 +244,9 @@ TEST(SetModels, DoNotMixModels) {
 
 TEST(SetModels, HaveBoxesOfTheirTriangles) {
   FileAndSet both(sphere_without(0));
-  const storage::SetRecord record = record_of_set(both.set());
+  const storage::SetDescription description = description_of(both.set());
   double lower = 2, upper = -2;
-  for (const storage::SetMember& member : record.members) {
+  for (const storage::SetMember& member : description.members) {
     if (!member.box) continue;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       EXPECT_LT(member.box->lower[axis], member.box->upper[axis]);

@@ -22,7 +22,7 @@ class NewSets : public testing::Test {
   }
   Bytes joined() const {
     Bytes bytes;
-    for (const SetMember& member : record_of(path_).members) {
+    for (const SetMember& member : description_of(path_).members) {
       const Bytes part = read_bytes(directory_ / member.address.c_str());
       EXPECT_EQ(part.size(), member.bytes);
       EXPECT_EQ(hash128(part), member.hash);
@@ -43,10 +43,10 @@ TEST_F(NewSets, HaveTheBytesOfTheFile) {
     const auto header = write_set(sample_, path_, member_bytes, true);
     ASSERT_TRUE(header) << header.error().text;
     EXPECT_EQ(joined(), expected) << member_bytes;
-    const SetRecord record = record_of(path_);
-    EXPECT_EQ(record.content_id, (Hash128{header->content_id[0], header->content_id[1]}));
+    const SetDescription description = description_of(path_);
+    EXPECT_EQ(description.content_id, (Hash128{header->content_id[0], header->content_id[1]}));
     std::uint32_t pages = 0;
-    for (const SetMember& member : record.members) {
+    for (const SetMember& member : description.members) {
       if (member.pages > 1) {
         EXPECT_LE(member.bytes, member_bytes);
       }
@@ -58,10 +58,10 @@ TEST_F(NewSets, HaveTheBytesOfTheFile) {
     }
     EXPECT_EQ(pages, sample_.page_count);
     if (member_bytes == 1'000'000) {
-      EXPECT_EQ(record.members.size(), 2u);
+      EXPECT_EQ(description.members.size(), 2u);
     }
-    // Nothing but the record and its members is left, whatever was there before.
-    EXPECT_EQ(directory_.names().size(), record.members.size() + 1);
+    // Nothing but the set file and its members is left, whatever was there before.
+    EXPECT_EQ(directory_.names().size(), description.members.size() + 1);
   }
 }
 
@@ -87,8 +87,8 @@ TEST_F(NewSets, RefuseOtherNames) {
 
 TEST_F(NewSets, LeaveFilesOfOthersAlone) {
   write_bytes(directory_ / "a.0.part", Bytes(3));
-  // The record of another program's set.
-  SetRecord other;
+  // The set file of another program's set.
+  SetDescription other;
   for (const char* address : {"a.0.part", "b.part", "/tmp/x/a.1.part", "a.txt"})
     other.members.push_back({.address = address, .bytes = 1});
   write_bytes(directory_ / "b.part", Bytes(3));
@@ -128,8 +128,8 @@ TEST_F(NewSets, AreWholeOrAbsentAfterEachFault) {
         SCOPED_TRACE(std::to_string(fault_at) + " " + calls.failed_call());
         // A fault while the directory is synced, or while old members are removed, is after the
         // end.
-        const bool is_new = std::filesystem::exists(path_) && record_of(path_).members.size() > 4 &&
-                            joined() == expected;
+        const bool is_new = std::filesystem::exists(path_) &&
+                            description_of(path_).members.size() > 4 && joined() == expected;
         if (written) {
           EXPECT_TRUE(is_new);
         } else if (!is_new) {

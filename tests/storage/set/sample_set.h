@@ -45,11 +45,11 @@ inline Bytes bytes_of(const ByteSource& source) {
   return bytes;
 }
 
-/// The record of a set.
-inline SetRecord record_of(const std::filesystem::path& path) {
-  const auto record = SetRecord::parse(read_bytes(path));
-  EXPECT_TRUE(record) << record.error().text;
-  return record ? *record : SetRecord();
+/// A set file.
+inline SetDescription description_of(const std::filesystem::path& path) {
+  const auto description = SetDescription::parse(read_bytes(path));
+  EXPECT_TRUE(description) << description.error().text;
+  return description ? *description : SetDescription();
 }
 
 }  // namespace planetree::storage

@@ -17,7 +17,7 @@ class SetSources : public testing::Test {
     ASSERT_TRUE(sample_.write(directory_ / "a.ptree"));
     ASSERT_TRUE(write_set(sample_, path_, 700));
     bytes_ = read_bytes(directory_ / "a.ptree");
-    members_ = record_of(path_).members;
+    members_ = description_of(path_).members;
     ASSERT_GT(members_.size(), 4u);
   }
   std::filesystem::path member(std::size_t number) const {
@@ -123,15 +123,15 @@ TEST_F(SetSources, RefuseRecordsThatAreNone) {
   EXPECT_EQ(open_error().code, ErrorCode::kNotPlanetree);
   std::filesystem::remove(path_);
   EXPECT_EQ(open_error().code, ErrorCode::kNotFound);
-  write_bytes(path_, Bytes(SetRecord::kMaxBytes + 1, std::byte{' '}));
+  write_bytes(path_, Bytes(SetDescription::kMaxBytes + 1, std::byte{' '}));
   EXPECT_EQ(open_error().code, ErrorCode::kNotPlanetree);
 }
 
 // A set may not lead to itself.
 TEST_F(SetSources, HaveFilesAsMembers) {
-  SetRecord record;
-  record.members.push_back({.address = "a.ptreeset", .bytes = 10});
-  const std::string text = record.text();
+  SetDescription description;
+  description.members.push_back({.address = "a.ptreeset", .bytes = 10});
+  const std::string text = description.text();
   write_bytes(path_, std::as_bytes(std::span(text)));
   EXPECT_EQ(open_error().code, ErrorCode::kTruncated);
 }

@@ -26,9 +26,9 @@ class CommandSet : public Command {
   }
   fs::path member(std::size_t number) const { return members_[number]["address"]; }
   std::string joined(const char* set) const {
-    const Json record = Json::parse(text_of(set));
+    const Json description = Json::parse(text_of(set));
     std::string bytes;
-    for (const Json& member : record["members"])
+    for (const Json& member : description["members"])
       bytes += text_of(member["address"].get<std::string>());
     return bytes;
   }
@@ -83,8 +83,8 @@ TEST_F(CommandSet, IsVerified) {
 
 TEST_F(CommandSet, IsVerifiedAgainstItsRecord) {
   const std::string text = text_of("set.ptreeset");
-  const auto issues_of = [](const std::string& record) {
-    write("set.ptreeset", record);
+  const auto issues_of = [](const std::string& description) {
+    write("set.ptreeset", description);
     return Json::parse(run({"verify", "set.ptreeset", "--json"}).output)["issues"];
   };
   Json other_id = Json::parse(text);
@@ -142,7 +142,7 @@ TEST_F(CommandSet, RefusesNamesAndSizes) {
   write("other.ptreeset", "{}");
   const Outcome other = run({"inspect", "other.ptreeset"});
   EXPECT_NE(other.status, 0);
-  EXPECT_NE(other.errors.find("not the record of a set"), std::string::npos) << other.errors;
+  EXPECT_NE(other.errors.find("not a set file"), std::string::npos) << other.errors;
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include "storage/file/checksum.h"
 #include "storage/system/byte_source.h"
 
-/// The record of a set: which files have the bytes of a model. format-spec/set-v1/spec.md specifies
+/// A set file: which files have the bytes of a model. format-spec/set-v1/spec.md specifies
 /// its text.
 namespace planetree::storage {
 
@@ -24,7 +24,7 @@ struct MemberBox {
 
 /// A file that has a part of the model's bytes.
 struct SetMember {
-  std::string address;      ///< path or URL; if relative, from where the record is
+  std::string address;      ///< path or URL; if relative, from where the set file is
   std::uint64_t bytes = 0;  ///< length, at least 1
   Hash128 hash{};           ///< XXH3-128 of all its bytes
   std::uint32_t pages = 0;  ///< number of pages in it, of all kinds
@@ -33,7 +33,7 @@ struct SetMember {
 };
 
 /// Members in the order of their bytes. Joined, they are a .ptree file.
-struct SetRecord {
+struct SetDescription {
   static constexpr std::size_t kMaxMembers = 256;
   static constexpr std::size_t kMaxBytes = std::size_t{1} << 20;  ///< of the text
   /// How the name of a set ends.
@@ -44,17 +44,17 @@ struct SetRecord {
 
   /// Sum of the members' lengths.
   std::uint64_t bytes() const noexcept;
-  /// The record as a text.
+  /// The set file as a text.
   std::string text() const;
   /// Reads a text, of which nothing is trusted.
   ///
-  /// errors  kNotPlanetree: it is no record; kUnsupported: it has another version; kDamaged: a
+  /// errors  kNotPlanetree: it is no set file; kUnsupported: it has another version; kDamaged: a
   ///         value is missing or not allowed
-  static Result<SetRecord> parse(std::span<const std::byte> text);
+  static Result<SetDescription> parse(std::span<const std::byte> text);
   /// Reads a file with a text.
   ///
   /// errors  those of reading and of parse()
-  static Result<SetRecord> read(const ByteSource& file);
+  static Result<SetDescription> read(const ByteSource& file);
 };
 
 }  // namespace planetree::storage

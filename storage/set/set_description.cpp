@@ -1,4 +1,4 @@
-#include "storage/set/set_record.h"
+#include "storage/set/set_description.h"
 
 #include <charconv>
 #include <cmath>
@@ -19,9 +19,8 @@ Error refusal(ErrorCode code, const char* cause) {
 }
 
 Error damaged(const char* cause) {
-  return make_error(
-      ErrorCode::kDamaged, Error::kNowhere, Error::kNowhere,
-      "the record of the set is damaged: %s; restore it from a copy or build it again", cause);
+  return make_error(ErrorCode::kDamaged, Error::kNowhere, Error::kNowhere,
+                    "the set file is damaged: %s; restore it from a copy or build it again", cause);
 }
 
 std::string hex(std::uint64_t value) {
@@ -38,7 +37,7 @@ bool read_hex(std::string_view text, std::uint64_t& value) {
   return read.ec == std::errc() && read.ptr == text.data() + text.size();
 }
 
-/// Reads values of one object of the record. After a failure, `cause` says what is wrong.
+/// Reads values of one object of the set file. After a failure, `cause` says what is wrong.
 class SetObject {
  public:
   SetObject(const Json& json, const char*& cause) : json_(json), cause_(cause) {}
@@ -130,14 +129,14 @@ Json json_of(const SetMember& member) {
 
 }  // namespace
 
-std::uint64_t SetRecord::bytes() const noexcept {
+std::uint64_t SetDescription::bytes() const noexcept {
   std::uint64_t sum = 0;
   for (const SetMember& member : members) sum += member.bytes;
   return sum;
 }
 
-// A member has a line of its own, for people who read the record.
-std::string SetRecord::text() const {
+// A member has a line of its own, for people who read the set file.
+std::string SetDescription::text() const {
   std::string list;
   for (const SetMember& member : members)
     list += (list.empty() ? "\n  " : ",\n  ") + json_of(member).dump();
@@ -146,36 +145,36 @@ std::string SetRecord::text() const {
          ",\n \"bytes\": " + Json(bytes()).dump() + ",\n \"members\": [" + list + "\n ]\n}\n";
 }
 
-Result<SetRecord> SetRecord::read(const ByteSource& file) {
+Result<SetDescription> SetDescription::read(const ByteSource& file) {
   if (file.size_bytes() > kMaxBytes)
     return refusal(ErrorCode::kNotPlanetree,
-                   "this is too long for the record of a set; name a .ptreeset or .ptree file");
+                   "this is too long for a set file; name a .ptreeset or .ptree file");
   std::vector<std::byte> text(static_cast<std::size_t>(file.size_bytes()));
   if (const auto read = file.read_at(0, text); !read) return read.error();
   return parse(text);
 }
 
-Result<SetRecord> SetRecord::parse(std::span<const std::byte> text) {
+Result<SetDescription> SetDescription::parse(std::span<const std::byte> text) {
   const auto* const first = reinterpret_cast<const char*>(text.data());
   const Json json = Json::parse(first, first + text.size(), nullptr, false);
   const char* cause = nullptr;
   const SetObject object(json, cause);
   if (object.text("format") != kFormat)
     return refusal(ErrorCode::kNotPlanetree,
-                   "this is not the record of a set; name a .ptreeset or .ptree file");
+                   "this is not a set file; name a .ptreeset or .ptree file");
   if (object.number("version", kVersion, "") != kVersion || cause)
     return refusal(ErrorCode::kUnsupported,
                    "the set has another version; use a newer release of planetree");
-  SetRecord record;
-  record.content_id = object.hash("content_id", "its content id is not 32 hexadecimal digits");
+  SetDescription description;
+  description.content_id = object.hash("content_id", "its content id is not 32 hexadecimal digits");
   const Json* const members = object.find("members");
   if (!members || !members->is_array() || members->empty() || members->size() > kMaxMembers)
     return damaged("it does not have 1 to 256 members");
-  for (const Json& member : *members) record.members.push_back(member_of(member, cause));
-  if (object.number("bytes", ~std::uint64_t{0}, "its length is none") != record.bytes())
+  for (const Json& member : *members) description.members.push_back(member_of(member, cause));
+  if (object.number("bytes", ~std::uint64_t{0}, "its length is none") != description.bytes())
     cause = "its length is not that of the members";
   if (cause) return damaged(cause);
-  return record;
+  return description;
 }
 
 }  // namespace planetree::storage

@@ -1,4 +1,4 @@
-#include "storage/set/set_record.h"
+#include "storage/set/set_description.h"
 
 #include <gtest/gtest.h>
 
@@ -10,37 +10,37 @@
 namespace planetree::storage {
 namespace {
 
-SetRecord sample_record() {
-  SetRecord record;
-  record.content_id = {0x0123456789abcdef, 0xfedcba9876543210};
-  record.members.push_back({"a.000.part", 2048, {1, 2}, 0, {}});
-  record.members.push_back({"folder/b \"c\".part",
-                            std::uint64_t{1} << 40,
-                            {3, ~std::uint64_t{0}},
-                            7,
-                            MemberBox{{-1.5, 0.1, -1e300}, {1, 2, 5e-324}}});
-  return record;
+SetDescription sample_description() {
+  SetDescription description;
+  description.content_id = {0x0123456789abcdef, 0xfedcba9876543210};
+  description.members.push_back({"a.000.part", 2048, {1, 2}, 0, {}});
+  description.members.push_back({"folder/b \"c\".part",
+                                 std::uint64_t{1} << 40,
+                                 {3, ~std::uint64_t{0}},
+                                 7,
+                                 MemberBox{{-1.5, 0.1, -1e300}, {1, 2, 5e-324}}});
+  return description;
 }
 
-Result<SetRecord> parse(const std::string& text) {
-  return SetRecord::parse(std::as_bytes(std::span(text)));
+Result<SetDescription> parse(const std::string& text) {
+  return SetDescription::parse(std::as_bytes(std::span(text)));
 }
 
 std::string changed(const std::string& from, const std::string& to) {
-  std::string text = sample_record().text();
+  std::string text = sample_description().text();
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   return text.replace(at, from.size(), to);
 }
 
 ErrorCode code_of(const std::string& text) {
-  const auto record = parse(text);
-  EXPECT_FALSE(record) << text;
-  return record ? ErrorCode::kCancelled : record.error().code;
+  const auto description = parse(text);
+  EXPECT_FALSE(description) << text;
+  return description ? ErrorCode::kCancelled : description.error().code;
 }
 
-TEST(SetRecord, ReadsWhatItWrites) {
-  const SetRecord written = sample_record();
+TEST(SetDescription, ReadsWhatItWrites) {
+  const SetDescription written = sample_description();
   const auto read = parse(written.text());
   ASSERT_TRUE(read) << read.error().text;
   EXPECT_EQ(read->content_id, written.content_id);
@@ -56,11 +56,11 @@ TEST(SetRecord, ReadsWhatItWrites) {
   EXPECT_EQ(read->text(), written.text());
 }
 
-TEST(SetRecord, ReadersIgnoreUnknownKeys) {
+TEST(SetDescription, ReadersIgnoreUnknownKeys) {
   EXPECT_TRUE(parse(changed("\"version\": 1,", "\"version\": 1, \"later\": {\"a\": [1]},")));
 }
 
-TEST(SetRecord, RefusesOtherTexts) {
+TEST(SetDescription, RefusesOtherTexts) {
   EXPECT_EQ(code_of(""), ErrorCode::kNotPlanetree);
   EXPECT_EQ(code_of("[]"), ErrorCode::kNotPlanetree);
   EXPECT_EQ(code_of("{\"format\": \"planetree-scene\"}"), ErrorCode::kNotPlanetree);
@@ -69,7 +69,7 @@ TEST(SetRecord, RefusesOtherTexts) {
   EXPECT_EQ(code_of(std::string(2 << 20, '[')), ErrorCode::kNotPlanetree);
 }
 
-TEST(SetRecord, RefusesValuesThatAreNone) {
+TEST(SetDescription, RefusesValuesThatAreNone) {
   const std::pair<const char*, const char*> changes[] = {
       {"fedcba9876543210", "fedcba987654321"},
       {"fedcba9876543210", "gedcba9876543210"},
@@ -97,19 +97,19 @@ TEST(SetRecord, RefusesValuesThatAreNone) {
   }
 }
 
-TEST(SetRecord, RefusesTooManyMembers) {
-  SetRecord record = sample_record();
-  record.members.resize(SetRecord::kMaxMembers, record.members.front());
-  EXPECT_TRUE(parse(record.text()));
-  record.members.push_back(record.members.front());
-  EXPECT_EQ(code_of(record.text()), ErrorCode::kDamaged);
-  record.members.clear();
-  EXPECT_EQ(code_of(record.text()), ErrorCode::kDamaged);
+TEST(SetDescription, RefusesTooManyMembers) {
+  SetDescription description = sample_description();
+  description.members.resize(SetDescription::kMaxMembers, description.members.front());
+  EXPECT_TRUE(parse(description.text()));
+  description.members.push_back(description.members.front());
+  EXPECT_EQ(code_of(description.text()), ErrorCode::kDamaged);
+  description.members.clear();
+  EXPECT_EQ(code_of(description.text()), ErrorCode::kDamaged);
 }
 
-TEST(SetRecord, SurvivesRandomChanges) {
+TEST(SetDescription, SurvivesRandomChanges) {
   std::mt19937 random(5);
-  const std::string text = sample_record().text();
+  const std::string text = sample_description().text();
   unsigned refused = 0;
   for (int i = 0; i < 20'000; ++i) {
     std::string copy = text;
@@ -121,11 +121,11 @@ TEST(SetRecord, SurvivesRandomChanges) {
         copy[at] = static_cast<char>(random() % 256);
       if (copy.empty()) break;
     }
-    const auto record = parse(copy);
-    refused += record ? 0 : 1;
-    if (!record) continue;
-    EXPECT_LE(record->members.size(), SetRecord::kMaxMembers);
-    EXPECT_TRUE(parse(record->text())) << copy;
+    const auto description = parse(copy);
+    refused += description ? 0 : 1;
+    if (!description) continue;
+    EXPECT_LE(description->members.size(), SetDescription::kMaxMembers);
+    EXPECT_TRUE(parse(description->text())) << copy;
   }
   EXPECT_GT(refused, 10'000u);
 }
