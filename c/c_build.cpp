@@ -21,6 +21,7 @@ BuildOptions options_of(const planetree_build_options* given) {
                                                               : SideChoice::kAuto;
   if (given->temp_directory) options.temp_directory = given->temp_directory;
   options.keep = given->keep;
+  options.member_bytes = given->member_bytes;
   if (given->value_property) options.value_property = given->value_property;
   options.resume = given->resume;
   options.strict = given->strict;

@@ -36,6 +36,9 @@ OpenOptions open_options_of(const planetree_open_options* given) {
   options.locking = given->requires_locking ? Locking::kRequire : Locking::kTry;
   options.read_ahead = given->read_ahead;
   options.use_io_uring = given->uses_io_uring;
+  options.allow_missing_members = given->allows_missing_members;
+  if (given->http_cache) options.http_cache = given->http_cache;
+  options.http_cache_bytes = given->http_cache_bytes;
   return options;
 }
 
@@ -65,6 +68,8 @@ void planetree_default_open_options(planetree_open_options* options) noexcept {
   options->wait_limit_ms = defaults.wait_limit_ms;
   options->read_ahead = defaults.read_ahead;
   options->uses_io_uring = defaults.use_io_uring;
+  options->allows_missing_members = defaults.allow_missing_members;
+  options->http_cache_bytes = defaults.http_cache_bytes;
 }
 
 void planetree_default_query_options(planetree_query_options* options) noexcept {

@@ -103,6 +103,7 @@ BuildOptions options_of(const py::dict& given) {
   from.take("threads", options.threads);
   from.take("temp_directory", options.temp_directory);
   from.take("page_bytes", options.page_bytes);
+  from.take("member_bytes", options.member_bytes);
   from.take("layers", options.layers);
   from.take("keep", options.keep);
   from.take("value_property", options.value_property);

@@ -32,6 +32,9 @@ std::shared_ptr<ModelHandle> open(const std::filesystem::path& path, const py::d
   from.take("use_io_uring", options.use_io_uring);
   from.take("locking", options.locking);
   from.take("policy", options.policy);
+  from.take("http_cache", options.http_cache);
+  from.take("http_cache_bytes", options.http_cache_bytes);
+  from.take("allow_missing_members", options.allow_missing_members);
   return std::make_shared<ModelHandle>(path, options);
 }
 
@@ -88,6 +91,9 @@ py::dict stats_of(const ModelHandle& handle) {
   told["degraded_answers"] = stats.degraded_answers;
   told["fetch_requests"] = stats.fetch_requests;
   told["fetch_requests_served"] = stats.fetch_requests_served;
+  told["http_requests"] = stats.http_requests;
+  told["http_bytes"] = stats.http_bytes;
+  told["http_cached_bytes"] = stats.http_cached_bytes;
   told["layers"] = stats.layers;
   told["frames"] = stats.frames;
   told["arena_bytes"] = stats.arena_bytes;

@@ -103,6 +103,9 @@ typedef struct planetree_open_options {
   bool requires_locking;         ///< whether memory that cannot be locked is a failure
   bool read_ahead;               ///< read all pages of a model that fits into memory
   bool uses_io_uring;            ///< wait for pages by io_uring
+  bool allows_missing_members;   ///< open a set of which members are missing
+  const char* http_cache;        ///< directory that keeps what is read of a URL; null: nowhere
+  uint64_t http_cache_bytes;     ///< maximum length of the file there
 } planetree_open_options;
 
 /// Contents of a file, as planetree::ModelInfo.
@@ -228,6 +231,7 @@ typedef struct planetree_build_options {
   const char* temp_directory;  ///< null: the directory of the output
   uint32_t keep;               ///< attributes that the file keeps: a sum of planetree_attribute
   const char* value_property;  ///< property of a PLY's faces for PLANETREE_KEEP_VALUE
+  uint64_t member_bytes;       ///< 0: one file; else a set of members of up to so many bytes
   bool resume;                 ///< resume from the checkpoint of an interrupted build
   bool strict;                 ///< refuse bad records instead of skipping them
   bool replace;                ///< replace the output if it exists

@@ -22,6 +22,7 @@ def build(
     threads: int = 0,
     temp_dir: "str | os.PathLike[str] | None" = None,
     page_size: "int | str" = 65536,
+    member_size: "int | str" = 0,
     box: Optional[Sequence[Sequence[float]]] = None,
     side: SideRule = SideRule.OF_FILE,
     layers: int = Layers.ALL,
@@ -47,6 +48,7 @@ def build(
                machine's. It spills what does not fit to temporary files in `temp_dir`
     threads    maximum number of threads; 0: one for each processor
     page_size  bytes of a decoded page, a power of two
+    member_size  0: one file; else `out` is a set, OUT.ptreeset, with members of up to so many bytes
     box        two corners: build only the triangles that touch this box
     side       SideRule.SOLID or SURFACE; OF_FILE: as the mesh suggests
     layers     layers of the file
@@ -69,6 +71,7 @@ def build(
     options = {
         "threads": int(threads),
         "page_bytes": bytes_of(page_size),
+        "member_bytes": bytes_of(member_size),
         "layers": int(layers) | Layers.DISTANCE,
         "side": int(SideRule(side)),
         "keep": int(attributes_of(keep)),

@@ -128,8 +128,11 @@ def open(  # noqa: A001 - the interface of the package
     read_ahead: bool = False,
     wait_limit: float = 10.0,
     use_io_uring: bool = True,
+    http_cache: "str | os.PathLike[str] | None" = None,
+    http_cache_size: "int | str" = "1G",
+    allow_missing_members: bool = False,
 ) -> Model:
-    """Opens a .ptree file.
+    """Opens a .ptree file, a set of files (.ptreeset), or a URL of either.
 
     memory         maximum memory of the model: bytes, or text such as "256M"
     threads        number of threads that answer one call of many points
@@ -141,6 +144,9 @@ def open(  # noqa: A001 - the interface of the package
     read_ahead     whether all pages are read ahead, if memory holds them
     wait_limit     seconds that a query waits for one page at most
     use_io_uring   whether queries may wait for the disk by io_uring
+    http_cache     directory that keeps what is read of a URL, for later processes; None: nowhere
+    http_cache_size        maximum size of the file there
+    allow_missing_members  whether members of a set may be missing; answers that need one are degraded
 
     Raises Error if the file cannot be read or is not one, or if `memory` is too small.
     """
@@ -157,5 +163,8 @@ def open(  # noqa: A001 - the interface of the package
             "read_ahead": bool(read_ahead),
             "wait_limit_ms": int(wait_limit * 1000),
             "use_io_uring": bool(use_io_uring),
+            "http_cache": "" if http_cache is None else os.fspath(http_cache),
+            "http_cache_bytes": bytes_of(http_cache_size),
+            "allow_missing_members": bool(allow_missing_members),
         },
     )
