@@ -19,7 +19,7 @@ TEST(SampleSet, HasTheMembersThatItNames) {
   const auto set =
       storage::SetDescription::parse(storage::read_bytes(kSamples / "sphere.ptreeset"));
   ASSERT_TRUE(set) << set.error().text;
-  ASSERT_EQ(set->members.size(), 3u);
+  ASSERT_EQ(set->members.size(), 4u);
   std::uint32_t pages = 0;
   for (const storage::SetMember& member : set->members) {
     const storage::Bytes bytes = storage::read_bytes(kSamples / member.address);
