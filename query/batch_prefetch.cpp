@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdint>
 
 #include "query/probe_state.h"
@@ -13,6 +14,12 @@ bool BatchPrefetch::helps(const ProbeState& probe, const QueryOptions& options) 
 }
 
 void BatchPrefetch::run(std::size_t first, std::size_t end) noexcept {
+  if (is_late_) return;
+  const ProbeState::WaitLimit limit(probe_);
+  run_rounds(first, end);
+}
+
+void BatchPrefetch::run_rounds(std::size_t first, std::size_t end) noexcept {
   for (unsigned round = 0; round < kMaxRounds && !is_late_; ++round)
     if (!run_round(first, end)) return;
 }
@@ -51,7 +58,7 @@ bool BatchPrefetch::run_round(std::size_t first, std::size_t end) noexcept {
   if (count == 0) return false;
   const std::span<std::uint32_t> pages(missing.data(), count);
   std::sort(pages.begin(), pages.end());
-  probe_.model().remote_file->prefetch(pages);
+  probe_.model().remote_file->prefetch_within(pages, probe_.wait_left());
   bool has_read = false;
   for (const std::uint32_t page : pages) {
     const ProbeState::Loaded loaded = probe_.load_page(page);
@@ -62,13 +69,24 @@ bool BatchPrefetch::run_round(std::size_t first, std::size_t end) noexcept {
   return has_read;
 }
 
-// Returns false if a page did not come in time. Not inlined, because files of this machine need
-// nothing of it.
+// Returns the terms of a query that waits, for a remote model.
+[[gnu::noinline]] cache::FetchTerms ProbeState::remote_terms() const noexcept {
+  cache::FetchTerms terms = model_.query_terms;
+  terms.deadline = std::min(deadline_, std::chrono::steady_clock::now() + terms.wait_limit);
+  return terms;
+}
+
+std::chrono::milliseconds ProbeState::wait_left() const noexcept {
+  return std::chrono::ceil<std::chrono::milliseconds>(deadline_ - std::chrono::steady_clock::now());
+}
+
+// Returns false if a page did not come in time. Needs a WaitLimit. Not inlined, because files of
+// this machine need nothing of it.
 [[gnu::noinline]] bool ProbeState::look_ahead(const Vec3& query,
                                               const QueryOptions& options) noexcept {
   const BatchOrder order;
   BatchPrefetch prefetch(*this, {&query, 1}, order, options);
-  prefetch.run(0, 1);
+  prefetch.run_rounds(0, 1);
   return !prefetch.is_late();
 }
 

@@ -35,9 +35,11 @@ class BatchPrefetch {
   /// Whether it is of use for a batch: the model is remote, and the queries wait for pages.
   static bool helps(const ProbeState& probe, const QueryOptions& options) noexcept;
 
-  /// Gets the pages of the queries [first, end) of the order, at most kQueries. Does nothing after
-  /// a page that the server did not give.
+  /// Gets the pages of the queries [first, end) of the order, at most kQueries, for no longer than
+  /// the wait limit. Does nothing after a page that the server did not give.
   void run(std::size_t first, std::size_t end) noexcept;
+  /// Does the same within the caller's ProbeState::WaitLimit.
+  void run_rounds(std::size_t first, std::size_t end) noexcept;
 
   /// Whether a page did not come in time.
   bool is_late() const noexcept { return is_late_; }

@@ -52,14 +52,18 @@ ClosestPoint ProbeState::find_closest_point(const Vec3& query,
 }
 
 ClosestPoint ProbeState::closest_point(const Vec3& query, const QueryOptions& options) noexcept {
-  if (model_.remote_file && looks_ahead_ && options.wait == Wait::kForPages &&
-      !look_ahead(query, options)) {
-    // After one wait in vain, the query waits for no other page.
-    QueryOptions at_once = options;
-    at_once.wait = Wait::kNever;
-    return find_closest_point<PageAccess::Query::kClosestPoint>(query, at_once);
-  }
+  if (model_.remote_file && looks_ahead_ && options.wait == Wait::kForPages)
+    return find_remote_closest_point(query, options);
   return find_closest_point<PageAccess::Query::kClosestPoint>(query, options);
+}
+
+[[gnu::noinline]] ClosestPoint ProbeState::find_remote_closest_point(
+    const Vec3& query, const QueryOptions& options) noexcept {
+  const WaitLimit limit(*this);
+  QueryOptions left = options;
+  // After one wait in vain, the query waits for no other page.
+  if (!look_ahead(query, options)) left.wait = Wait::kNever;
+  return find_closest_point<PageAccess::Query::kClosestPoint>(query, left);
 }
 
 [[gnu::noinline]] void ProbeState::note_degraded(double width, bool missed) noexcept {
