@@ -28,12 +28,17 @@ void BatchPrefetch::run_rounds(std::size_t first, std::size_t end) noexcept {
 std::size_t BatchPrefetch::find_missing(std::size_t first, std::size_t end,
                                         std::span<std::uint32_t> pages) noexcept {
   std::size_t count = 0;
-  const auto add = [&](std::uint32_t page) {
-    const auto known = pages.first(count);
-    if (page == PageAccessor::kNoPage || count == pages.size() ||
-        std::find(known.begin(), known.end(), page) != known.end())
-      return;
-    pages[count++] = page;
+  // Of a single query, the next pages are got with the first one, so that it need not wait again if
+  // that one does not have the nearest triangle.
+  const std::size_t each = end - first == 1 ? kMaxPagesOfOne : 1;
+  const auto add_missing = [&](const Vec3& query, const QueryOptions& options) {
+    std::array<std::uint32_t, kMaxPagesOfOne> lacking;
+    const std::size_t found = probe_.missing_pages(query, options, std::span(lacking).first(each));
+    for (const std::uint32_t page : std::span(lacking).first(found)) {
+      const auto known = pages.first(count);
+      if (count < pages.size() && std::find(known.begin(), known.end(), page) == known.end())
+        pages[count++] = page;
+    }
   };
   // The side is searched in other pages than the distance, which need not be known for that.
   QueryOptions of_side = options_;
@@ -41,10 +46,38 @@ std::size_t BatchPrefetch::find_missing(std::size_t first, std::size_t end,
   const bool has_both = (options_.parts & kSide) != 0 && options_.parts != kSide;
   for (std::size_t i = first; i < end && count < pages.size(); ++i) {
     const Vec3& query = queries_[order_.query(i)];
-    add(probe_.first_missing_page(query, options_));
-    if (has_both) add(probe_.first_missing_page(query, of_side));
+    add_missing(query, options_);
+    if (has_both) add_missing(query, of_side);
   }
   return count;
+}
+
+// Loads pages until one did not come in time. Returns whether any is resident now.
+bool BatchPrefetch::load(std::span<const std::uint32_t> pages) noexcept {
+  bool has_read = false;
+  for (const std::uint32_t page : pages) {
+    const ProbeState::Loaded loaded = probe_.load_page(page);
+    has_read = has_read || loaded == ProbeState::Loaded::kResident;
+    is_late_ = loaded == ProbeState::Loaded::kLate;
+    if (is_late_) return false;
+  }
+  return has_read;
+}
+
+// Returns the pages that the queries lack and that take a request. Pages that take none are loaded
+// first, because they may lead to others.
+std::span<std::uint32_t> BatchPrefetch::find_beyond(std::size_t first, std::size_t end,
+                                                    std::span<std::uint32_t> room) noexcept {
+  std::span<std::uint32_t> pages;
+  for (unsigned look = 0; look < kMaxLooks; ++look) {
+    pages = room.first(find_missing(first, end, room));
+    const auto beyond = std::partition(pages.begin(), pages.end(), [this](std::uint32_t page) {
+      return probe_.model().remote_file->is_here(page);
+    });
+    const auto here = static_cast<std::size_t>(beyond - pages.begin());
+    if (here == 0 || !load(pages.first(here))) break;
+  }
+  return is_late_ ? std::span<std::uint32_t>() : pages;
 }
 
 // Returns false if no query lacks a page that can be got.
@@ -54,19 +87,12 @@ bool BatchPrefetch::run_round(std::size_t first, std::size_t end) noexcept {
                                     ? kMaxPages
                                     : std::min<std::size_t>(kMaxPages, cache.frame_count() / 4);
   std::array<std::uint32_t, kMaxPages> missing;
-  const std::size_t count = find_missing(first, end, std::span(missing).first(max_pages));
-  if (count == 0) return false;
-  const std::span<std::uint32_t> pages(missing.data(), count);
+  const std::span<std::uint32_t> pages =
+      find_beyond(first, end, std::span(missing).first(max_pages));
+  if (pages.empty()) return false;
   std::sort(pages.begin(), pages.end());
   probe_.model().remote_file->prefetch_within(pages, probe_.wait_left());
-  bool has_read = false;
-  for (const std::uint32_t page : pages) {
-    const ProbeState::Loaded loaded = probe_.load_page(page);
-    has_read = has_read || loaded == ProbeState::Loaded::kResident;
-    is_late_ = loaded == ProbeState::Loaded::kLate;
-    if (is_late_) return false;
-  }
-  return has_read;
+  return load(pages);
 }
 
 // Returns the terms of a query that waits, for a remote model.

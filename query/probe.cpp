@@ -144,14 +144,15 @@ bool ProbeState::fetch_page(std::uint32_t page, const std::atomic<bool>& stop) n
   return running.fetched() > 0;
 }
 
-std::uint32_t ProbeState::first_missing_page(const Vec3& query,
-                                             const QueryOptions& options) noexcept {
+std::size_t ProbeState::missing_pages(const Vec3& query, const QueryOptions& options,
+                                      std::span<std::uint32_t> pages) noexcept {
   assert(options.wait == Wait::kNever);
-  if (!is_valid(query, options)) return PageAccessor::kNoPage;
+  if (!is_valid(query, options)) return 0;
   RunningQuery running(*this, PageAccess::Query::kPrefetch, options.wait);
+  running.keep_missed(pages);
   ClosestPoint unused = unanswered(Status::kExact);
   query::closest_point(running.context(), query, with_defaults(options), unused);
-  return running.first_missed();
+  return running.kept_missed();
 }
 
 ProbeState::Loaded ProbeState::load_page(std::uint32_t page) noexcept {

@@ -108,9 +108,13 @@ class ProbeState {
                  const std::atomic<bool>& stop) noexcept;
   /// See FetchProbe::fetch_page.
   bool fetch_page(std::uint32_t page, const std::atomic<bool>& stop) noexcept;
-  /// Returns the first page that a closest-point query that does not wait lacks, or
-  /// PageAccessor::kNoPage. Leaves no request and counts no answer.
-  std::uint32_t first_missing_page(const Vec3& query, const QueryOptions& options) noexcept;
+  /// Finds the first pages that a closest-point query that does not wait lacks. Leaves no request
+  /// and counts no answer.
+  ///
+  /// pages   receives them, each once, as far as there is room
+  /// return  their number
+  std::size_t missing_pages(const Vec3& query, const QueryOptions& options,
+                            std::span<std::uint32_t> pages) noexcept;
   /// What became of a page that load_page() asked for.
   enum class Loaded : std::uint8_t { kResident, kUnreadable, kLate };
   /// Makes a page resident, as a blocking query does.
@@ -222,7 +226,8 @@ class ProbeState::RunningQuery {
   std::uint64_t units() const noexcept { return work_.units; }
   std::uint32_t fetched() const noexcept { return accessor_.fetched(); }
   bool missed() const noexcept { return accessor_.missed(); }
-  std::uint32_t first_missed() const noexcept { return accessor_.first_missed(); }
+  void keep_missed(std::span<std::uint32_t> room) noexcept { accessor_.keep_missed(room); }
+  std::size_t kept_missed() const noexcept { return accessor_.kept_missed(); }
   /// Notes an answer of which nothing is known but what it says.
   void note_degraded() noexcept {
     accessor_.pages().need_others();

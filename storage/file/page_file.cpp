@@ -221,6 +221,11 @@ void PageFile::prefetch_pages(std::span<const std::uint32_t> pages,
   source_->prefetch_within(std::span(ranges).first(count), left);
 }
 
+bool PageFile::is_here(std::uint32_t page) const noexcept {
+  const std::optional<PageEntry> entry = kept_entry(page);
+  return entry && source_->is_here({entry->offset, entry->stored_bytes});
+}
+
 Result<bool> PageFile::try_read_page(std::uint32_t page, std::span<std::byte> stored_scratch,
                                      std::span<std::byte> raw_out,
                                      const ReadLimits& terms) const noexcept {

@@ -98,6 +98,9 @@ class PageFile {
   void prefetch_within(std::span<const std::uint32_t> pages,
                        std::chrono::milliseconds max_time) const noexcept;
 
+  /// Whether read_page() takes no request to another machine.
+  bool is_here(std::uint32_t page) const noexcept;
+
  private:
   PageFile() noexcept = default;
   Result<void> load_header() noexcept;

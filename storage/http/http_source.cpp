@@ -218,6 +218,10 @@ void HttpSource::prefetch_within(std::span<const ByteRange> ranges,
   }
 }
 
+bool HttpSource::is_here(const ByteRange& range) const noexcept {
+  return memory_.has(range.offset, range.bytes);
+}
+
 bool HttpSource::forget(const ByteRange& range) const noexcept {
   const std::uint64_t first = range.offset / kClusterBytes;
   const std::uint64_t last =

@@ -56,6 +56,7 @@ class HttpSource final : public ByteSource {
   void prefetch(std::span<const ByteRange> ranges) const noexcept override;
   void prefetch_within(std::span<const ByteRange> ranges,
                        std::chrono::milliseconds max_time) const noexcept override;
+  bool is_here(const ByteRange& range) const noexcept override;
   bool forget(const ByteRange& range) const noexcept override;
 
  private:

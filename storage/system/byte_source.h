@@ -70,6 +70,8 @@ class ByteSource {
                                std::chrono::milliseconds /*max_time*/) const noexcept {
     prefetch(ranges);
   }
+  /// Whether read_at() of a range takes no request to another machine.
+  virtual bool is_here(const ByteRange& /*range*/) const noexcept { return true; }
   /// Forgets what the source keeps of a range, because the bytes were wrong. Returns whether a
   /// second read may find others.
   virtual bool forget(const ByteRange& /*range*/) const noexcept { return false; }
