@@ -23,6 +23,7 @@
 // A page that was waited for is held until it is taken. Otherwise two threads could evict each
 // other's pages without end, each before the other has woken up.
 
+#include <algorithm>
 #include <cassert>
 #include <chrono>
 #include <thread>
@@ -160,10 +161,14 @@ PageCache::Outcome PageCache::wait_for_page(Lock& lock, std::uint32_t fetcher, s
     helpers_waker_.notify_one();
   std::condition_variable& waker = wakers_[fetcher % kWakers];
   const auto is_done = [&waits] { return !waits(); };
-  if (terms.wait_limit == FetchTerms::kNoLimit) {
+  using Clock = std::chrono::steady_clock;
+  const bool has_limit = terms.wait_limit != FetchTerms::kNoLimit;
+  const Clock::time_point end =
+      has_limit ? std::min(Clock::now() + terms.wait_limit, terms.deadline) : terms.deadline;
+  if (end == Clock::time_point::max()) {
     waker.wait(lock, is_done);
   } else {
-    waker.wait_for(lock, terms.wait_limit, is_done);
+    waker.wait_until(lock, end, is_done);
   }
   const InFlightRead in_flight = in_flight_reads_.of(fetcher);
   in_flight_reads_.end(fetcher);

@@ -22,6 +22,8 @@ struct FetchTerms {
   bool reads_itself = true;
   /// Maximum time to wait for a page that another thread reads.
   std::chrono::milliseconds wait_limit = kNoLimit;
+  /// When the waits for all pages end at the latest.
+  std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
 };
 
 /// Result of a fetch.

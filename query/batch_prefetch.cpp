@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdint>
 
 #include "query/probe_state.h"
@@ -13,6 +14,12 @@ bool BatchPrefetch::helps(const ProbeState& probe, const QueryOptions& options) 
 }
 
 void BatchPrefetch::run(std::size_t first, std::size_t end) noexcept {
+  if (is_late_) return;
+  const ProbeState::WaitLimit limit(probe_);
+  run_rounds(first, end);
+}
+
+void BatchPrefetch::run_rounds(std::size_t first, std::size_t end) noexcept {
   for (unsigned round = 0; round < kMaxRounds && !is_late_; ++round)
     if (!run_round(first, end)) return;
 }
@@ -21,12 +28,17 @@ void BatchPrefetch::run(std::size_t first, std::size_t end) noexcept {
 std::size_t BatchPrefetch::find_missing(std::size_t first, std::size_t end,
                                         std::span<std::uint32_t> pages) noexcept {
   std::size_t count = 0;
-  const auto add = [&](std::uint32_t page) {
-    const auto known = pages.first(count);
-    if (page == PageAccessor::kNoPage || count == pages.size() ||
-        std::find(known.begin(), known.end(), page) != known.end())
-      return;
-    pages[count++] = page;
+  // Of a single query, the next pages are got with the first one, so that it need not wait again if
+  // that one does not have the nearest triangle.
+  const std::size_t each = end - first == 1 ? kMaxPagesOfOne : 1;
+  const auto add_missing = [&](const Vec3& query, const QueryOptions& options) {
+    std::array<std::uint32_t, kMaxPagesOfOne> lacking;
+    const std::size_t found = probe_.missing_pages(query, options, std::span(lacking).first(each));
+    for (const std::uint32_t page : std::span(lacking).first(found)) {
+      const auto known = pages.first(count);
+      if (count < pages.size() && std::find(known.begin(), known.end(), page) == known.end())
+        pages[count++] = page;
+    }
   };
   // The side is searched in other pages than the distance, which need not be known for that.
   QueryOptions of_side = options_;
@@ -34,24 +46,14 @@ std::size_t BatchPrefetch::find_missing(std::size_t first, std::size_t end,
   const bool has_both = (options_.parts & kSide) != 0 && options_.parts != kSide;
   for (std::size_t i = first; i < end && count < pages.size(); ++i) {
     const Vec3& query = queries_[order_.query(i)];
-    add(probe_.first_missing_page(query, options_));
-    if (has_both) add(probe_.first_missing_page(query, of_side));
+    add_missing(query, options_);
+    if (has_both) add_missing(query, of_side);
   }
   return count;
 }
 
-// Returns false if no query lacks a page that can be got.
-bool BatchPrefetch::run_round(std::size_t first, std::size_t end) noexcept {
-  const cache::PageCache& cache = probe_.model().cache;
-  const std::size_t max_pages = cache.holds_all_pages()
-                                    ? kMaxPages
-                                    : std::min<std::size_t>(kMaxPages, cache.frame_count() / 4);
-  std::array<std::uint32_t, kMaxPages> missing;
-  const std::size_t count = find_missing(first, end, std::span(missing).first(max_pages));
-  if (count == 0) return false;
-  const std::span<std::uint32_t> pages(missing.data(), count);
-  std::sort(pages.begin(), pages.end());
-  probe_.model().remote_file->prefetch(pages);
+// Loads pages until one did not come in time. Returns whether any is resident now.
+bool BatchPrefetch::load(std::span<const std::uint32_t> pages) noexcept {
   bool has_read = false;
   for (const std::uint32_t page : pages) {
     const ProbeState::Loaded loaded = probe_.load_page(page);
@@ -62,13 +64,55 @@ bool BatchPrefetch::run_round(std::size_t first, std::size_t end) noexcept {
   return has_read;
 }
 
-// Returns false if a page did not come in time. Not inlined, because files of this machine need
-// nothing of it.
+// Returns the pages that the queries lack and that take a request. Pages that take none are loaded
+// first, because they may lead to others.
+std::span<std::uint32_t> BatchPrefetch::find_beyond(std::size_t first, std::size_t end,
+                                                    std::span<std::uint32_t> room) noexcept {
+  std::span<std::uint32_t> pages;
+  for (unsigned look = 0; look < kMaxLooks; ++look) {
+    pages = room.first(find_missing(first, end, room));
+    const auto beyond = std::partition(pages.begin(), pages.end(), [this](std::uint32_t page) {
+      return probe_.model().remote_file->is_here(page);
+    });
+    const auto here = static_cast<std::size_t>(beyond - pages.begin());
+    if (here == 0 || !load(pages.first(here))) break;
+  }
+  return is_late_ ? std::span<std::uint32_t>() : pages;
+}
+
+// Returns false if no query lacks a page that can be got.
+bool BatchPrefetch::run_round(std::size_t first, std::size_t end) noexcept {
+  const cache::PageCache& cache = probe_.model().cache;
+  const std::size_t max_pages = cache.holds_all_pages()
+                                    ? kMaxPages
+                                    : std::min<std::size_t>(kMaxPages, cache.frame_count() / 4);
+  std::array<std::uint32_t, kMaxPages> missing;
+  const std::span<std::uint32_t> pages =
+      find_beyond(first, end, std::span(missing).first(max_pages));
+  if (pages.empty()) return false;
+  std::sort(pages.begin(), pages.end());
+  probe_.model().remote_file->prefetch_within(pages, probe_.wait_left());
+  return load(pages);
+}
+
+// Returns the terms of a query that waits, for a remote model.
+[[gnu::noinline]] cache::FetchTerms ProbeState::remote_terms() const noexcept {
+  cache::FetchTerms terms = model_.query_terms;
+  terms.deadline = std::min(deadline_, std::chrono::steady_clock::now() + terms.wait_limit);
+  return terms;
+}
+
+std::chrono::milliseconds ProbeState::wait_left() const noexcept {
+  return std::chrono::ceil<std::chrono::milliseconds>(deadline_ - std::chrono::steady_clock::now());
+}
+
+// Returns false if a page did not come in time. Needs a WaitLimit. Not inlined, because files of
+// this machine need nothing of it.
 [[gnu::noinline]] bool ProbeState::look_ahead(const Vec3& query,
                                               const QueryOptions& options) noexcept {
   const BatchOrder order;
   BatchPrefetch prefetch(*this, {&query, 1}, order, options);
-  prefetch.run(0, 1);
+  prefetch.run_rounds(0, 1);
   return !prefetch.is_late();
 }
 

@@ -14,8 +14,8 @@ class ProbeState;
 
 /// Gets pages that the queries of a batch lack from the server of a remote model, before the
 /// queries run. Each round gets the first page that each query lacks for its distance and for its
-/// side, with requests at once. So a batch waits for a round trip for each level of the trees, not
-/// for each page.
+/// side, with requests at once; of a query alone, the first kMaxPagesOfOne pages. So a batch waits
+/// for a round trip for each level of the trees, not for each page.
 ///
 /// threads  that of the probe
 class BatchPrefetch {
@@ -35,20 +35,29 @@ class BatchPrefetch {
   /// Whether it is of use for a batch: the model is remote, and the queries wait for pages.
   static bool helps(const ProbeState& probe, const QueryOptions& options) noexcept;
 
-  /// Gets the pages of the queries [first, end) of the order, at most kQueries. Does nothing after
-  /// a page that the server did not give.
+  /// Gets the pages of the queries [first, end) of the order, at most kQueries, for no longer than
+  /// the wait limit. Does nothing after a page that the server did not give.
   void run(std::size_t first, std::size_t end) noexcept;
+  /// Does the same within the caller's ProbeState::WaitLimit.
+  void run_rounds(std::size_t first, std::size_t end) noexcept;
 
   /// Whether a page did not come in time.
   bool is_late() const noexcept { return is_late_; }
 
  private:
   static constexpr unsigned kMaxRounds = 6;
+  // Looks for missing pages in a round. Each but the last one loads pages that take no request.
+  static constexpr unsigned kMaxLooks = 12;
+  // Pages of one query in a round, for its distance and again for its side, if it is alone.
+  static constexpr std::size_t kMaxPagesOfOne = 3;
   // Pages of one round. The frames and the clusters in memory must hold them.
   static constexpr std::size_t kMaxPages = 64;
 
   std::size_t find_missing(std::size_t first, std::size_t end,
                            std::span<std::uint32_t> pages) noexcept;
+  std::span<std::uint32_t> find_beyond(std::size_t first, std::size_t end,
+                                       std::span<std::uint32_t> room) noexcept;
+  bool load(std::span<const std::uint32_t> pages) noexcept;
   bool run_round(std::size_t first, std::size_t end) noexcept;
 
   ProbeState& probe_;

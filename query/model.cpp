@@ -258,6 +258,7 @@ Stats ModelState::stats() const noexcept {
   stats.http_requests = source.requests;
   stats.http_bytes = source.bytes;
   stats.http_cached_bytes = source.cached_bytes;
+  stats.http_rounds = source.rounds;
   stats.layers = pager_->opened().layers;
   stats.locked_bytes = pager_->locked_bytes();
   stats.field_damaged = field_damaged_;

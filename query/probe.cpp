@@ -52,14 +52,18 @@ ClosestPoint ProbeState::find_closest_point(const Vec3& query,
 }
 
 ClosestPoint ProbeState::closest_point(const Vec3& query, const QueryOptions& options) noexcept {
-  if (model_.remote_file && looks_ahead_ && options.wait == Wait::kForPages &&
-      !look_ahead(query, options)) {
-    // After one wait in vain, the query waits for no other page.
-    QueryOptions at_once = options;
-    at_once.wait = Wait::kNever;
-    return find_closest_point<PageAccess::Query::kClosestPoint>(query, at_once);
-  }
+  if (model_.remote_file && looks_ahead_ && options.wait == Wait::kForPages)
+    return find_remote_closest_point(query, options);
   return find_closest_point<PageAccess::Query::kClosestPoint>(query, options);
+}
+
+[[gnu::noinline]] ClosestPoint ProbeState::find_remote_closest_point(
+    const Vec3& query, const QueryOptions& options) noexcept {
+  const WaitLimit limit(*this);
+  QueryOptions left = options;
+  // After one wait in vain, the query waits for no other page.
+  if (!look_ahead(query, options)) left.wait = Wait::kNever;
+  return find_closest_point<PageAccess::Query::kClosestPoint>(query, left);
 }
 
 [[gnu::noinline]] void ProbeState::note_degraded(double width, bool missed) noexcept {
@@ -140,14 +144,15 @@ bool ProbeState::fetch_page(std::uint32_t page, const std::atomic<bool>& stop) n
   return running.fetched() > 0;
 }
 
-std::uint32_t ProbeState::first_missing_page(const Vec3& query,
-                                             const QueryOptions& options) noexcept {
+std::size_t ProbeState::missing_pages(const Vec3& query, const QueryOptions& options,
+                                      std::span<std::uint32_t> pages) noexcept {
   assert(options.wait == Wait::kNever);
-  if (!is_valid(query, options)) return PageAccessor::kNoPage;
+  if (!is_valid(query, options)) return 0;
   RunningQuery running(*this, PageAccess::Query::kPrefetch, options.wait);
+  running.keep_missed(pages);
   ClosestPoint unused = unanswered(Status::kExact);
   query::closest_point(running.context(), query, with_defaults(options), unused);
-  return running.first_missed();
+  return running.kept_missed();
 }
 
 ProbeState::Loaded ProbeState::load_page(std::uint32_t page) noexcept {

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <bit>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -89,6 +90,10 @@ class ProbeState {
   void set_in_batch(bool in_batch) noexcept {
     if (trace_) trace_->set_in_batch(in_batch);
   }
+  /// Limits all waits for the pages of a remote model, while it lives, to the wait limit together.
+  class WaitLimit;
+  /// Time that is left of it. Needs a WaitLimit.
+  std::chrono::milliseconds wait_left() const noexcept;
   /// Says whether queries that wait get pages from a server by themselves, many at once. A batch
   /// does it for them.
   void set_looks_ahead(bool looks_ahead) noexcept { looks_ahead_ = looks_ahead; }
@@ -103,9 +108,13 @@ class ProbeState {
                  const std::atomic<bool>& stop) noexcept;
   /// See FetchProbe::fetch_page.
   bool fetch_page(std::uint32_t page, const std::atomic<bool>& stop) noexcept;
-  /// Returns the first page that a closest-point query that does not wait lacks, or
-  /// PageAccessor::kNoPage. Leaves no request and counts no answer.
-  std::uint32_t first_missing_page(const Vec3& query, const QueryOptions& options) noexcept;
+  /// Finds the first pages that a closest-point query that does not wait lacks. Leaves no request
+  /// and counts no answer.
+  ///
+  /// pages   receives them, each once, as far as there is room
+  /// return  their number
+  std::size_t missing_pages(const Vec3& query, const QueryOptions& options,
+                            std::span<std::uint32_t> pages) noexcept;
   /// What became of a page that load_page() asked for.
   enum class Loaded : std::uint8_t { kResident, kUnreadable, kLate };
   /// Makes a page resident, as a blocking query does.
@@ -125,6 +134,7 @@ class ProbeState {
   static constexpr std::uint32_t kMinFramesToPrefetch = 8;
 
   class RunningQuery;
+  using TimePoint = std::chrono::steady_clock::time_point;
 
   ProbeState(const ServingModel& model, cache::Reader reader,
              std::unique_ptr<BatchBuffers> batch_buffers) noexcept
@@ -147,7 +157,13 @@ class ProbeState {
   Found find_set(const Vec3& centre, double radius, std::span<ClosestPoint> found,
                  const QueryOptions& options, const Find& find) noexcept;
   void note_degraded(double width, bool missed) noexcept;
+  ClosestPoint find_remote_closest_point(const Vec3& query, const QueryOptions& options) noexcept;
   bool look_ahead(const Vec3& query, const QueryOptions& options) noexcept;
+  cache::FetchTerms remote_terms() const noexcept;
+  cache::FetchTerms terms_of(Wait wait) const noexcept {
+    const bool is_remote_wait = model_.remote_file && wait == Wait::kForPages;
+    return is_remote_wait ? remote_terms() : model_.query_terms;
+  }
   void request(const Vec3& query, const QueryOptions& options, std::uint32_t parts,
                std::uint64_t triangles = 0, double radius = 0) noexcept;
   void note_missing_way(const ModelLine& way, double end, double radius, std::uint64_t count,
@@ -164,7 +180,21 @@ class ProbeState {
   std::uint64_t work_spent_ = 0;                 // units of all queries
   std::uint64_t side_searches_ = 0;              // closest-point queries that searched for the side
   bool looks_ahead_ = true;
+  TimePoint deadline_ = TimePoint::max();  // see WaitLimit
   Coherence coherence_;
+};
+
+class ProbeState::WaitLimit {
+ public:
+  explicit WaitLimit(ProbeState& probe) noexcept : probe_(probe) {
+    probe.deadline_ = std::chrono::steady_clock::now() + probe.model_.query_terms.wait_limit;
+  }
+  ~WaitLimit() { probe_.deadline_ = TimePoint::max(); }
+  WaitLimit(const WaitLimit&) = delete;
+  WaitLimit& operator=(const WaitLimit&) = delete;
+
+ private:
+  ProbeState& probe_;
 };
 
 /// A query while it runs: its access to pages, its page trace if the model keeps one, and its work,
@@ -176,7 +206,7 @@ class ProbeState::RunningQuery {
   /// stop  null but for the queries of fetch threads: see PageAccessor
   RunningQuery(ProbeState& probe, Wait wait, const std::atomic<bool>* stop = nullptr) noexcept
       : probe_(probe),
-        accessor_(probe.reader_, wait, stop ? probe.model_.fetcher_terms : probe.model_.query_terms,
+        accessor_(probe.reader_, wait, stop ? probe.model_.fetcher_terms : probe.terms_of(wait),
                   stop) {
     accessor_.set_trace(probe.trace_);
   }
@@ -196,7 +226,8 @@ class ProbeState::RunningQuery {
   std::uint64_t units() const noexcept { return work_.units; }
   std::uint32_t fetched() const noexcept { return accessor_.fetched(); }
   bool missed() const noexcept { return accessor_.missed(); }
-  std::uint32_t first_missed() const noexcept { return accessor_.first_missed(); }
+  void keep_missed(std::span<std::uint32_t> room) noexcept { accessor_.keep_missed(room); }
+  std::size_t kept_missed() const noexcept { return accessor_.kept_missed(); }
   /// Notes an answer of which nothing is known but what it says.
   void note_degraded() noexcept {
     accessor_.pages().need_others();

@@ -103,6 +103,10 @@ struct Stats {
   /// Of a model opened by URL: requests sent, repeated ones included; bytes that came; bytes that
   /// OpenOptions::http_cache had instead. 0 for a file.
   std::uint64_t http_requests = 0, http_bytes = 0, http_cached_bytes = 0;
+  /// Of a model opened by URL: round trips that had to follow each other. Requests that were on the
+  /// way at once count as one. Times the latency of the server, the time that requests took at
+  /// least.
+  std::uint64_t http_rounds = 0;
   std::uint64_t page_trace_dropped = 0;   ///< records lost because a page trace was full
   std::uint32_t layers = kDistanceLayer;  ///< layers that are open; see OpenOptions::layers
   std::uint64_t frames = 0;               ///< frames: maximum number of pages in memory

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "cache/page_cache.h"
 #include "cache/reader.h"
@@ -74,9 +76,10 @@ class PageAccessor {
   /// Whether the query went on without a page: it may not wait, or its wait was given up.
   bool missed() const noexcept { return missed_; }
 
-  /// The first page that the query went on without; kNoPage if there is none.
-  static constexpr std::uint32_t kNoPage = ~std::uint32_t{0};
-  std::uint32_t first_missed() const noexcept { return first_missed_; }
+  /// Keeps the numbers of the first pages that the query goes on without, each once, as far
+  /// as there is room.
+  void keep_missed(std::span<std::uint32_t> room) noexcept { missed_room_ = room; }
+  std::size_t kept_missed() const noexcept { return kept_missed_; }
 
   /// Returns the page's frame if it is resident, else null. Reads nothing and records nothing.
   const std::byte* peek(std::uint32_t number) noexcept {
@@ -94,8 +97,13 @@ class PageAccessor {
     if (!reader_.inside()) reader_.enter();
   }
   void note_missed(std::uint32_t number) noexcept {
-    if (!missed_) first_missed_ = number;
+    if (kept_missed_ < missed_room_.size()) keep_missed(number);
     missed_ = true;
+  }
+  void keep_missed(std::uint32_t number) noexcept {
+    const auto known = missed_room_.first(kept_missed_);
+    if (std::find(known.begin(), known.end(), number) == known.end())
+      missed_room_[kept_missed_++] = number;
   }
   // Call it before a section ends: a traversal may hold pointers to frames.
   void release_frames() noexcept {
@@ -164,7 +172,8 @@ class PageAccessor {
   PageTrace* trace_ = nullptr;
   bool may_wait_;  // false for good after a wait was given up
   bool missed_ = false;
-  std::uint32_t first_missed_ = kNoPage;
+  std::span<std::uint32_t> missed_room_;
+  std::size_t kept_missed_ = 0;
   std::uint32_t lookups_ = 0;
   std::uint32_t fetched_ = 0;
 };

@@ -15,8 +15,15 @@ PageEntry entry_in(const FileHeader& header, const DirectoryPlace& place,
   return page_entry(directory_entry<DirectoryPage>(block, index), offset);
 }
 
-Error not_kept() noexcept {
-  return make_error(ErrorCode::kReadFailed, Error::kNowhere, Error::kNowhere,
+Result<void> read_block(const ByteSource& source, std::uint64_t offset,
+                        std::span<std::byte> out) noexcept {
+  return source.read_at(offset, out, "read the directory");
+}
+
+Result<void> try_to_read_block(const ByteSource& source, std::uint64_t offset,
+                               std::span<std::byte> out) noexcept {
+  if (source.try_read(offset, out, {})) return {};
+  return make_error(ErrorCode::kReadFailed, Error::kNowhere, offset,
                     "a part of the directory is not in memory; read it");
 }
 
@@ -35,8 +42,8 @@ Result<Directory> Directory::open(const ByteSource& source, const FileHeader& he
                       directory_start(header.extension_count),
                       "no memory for the directory of %llu bytes; free some memory",
                       static_cast<unsigned long long>(opened.memory_bytes()));
-  if (const auto root = opened.block(&source, header, DirectoryPlace::root(header)); !root)
-    return root.error();
+  const auto root = opened.read_step(source, header, DirectoryPlace::root(header), 0, read_block);
+  if (!root) return root.error();
   if (!opened.reads_all_at_open(source, header)) return opened;
   if (const auto done = opened.read_all(source, header); !done) return done.error();
   opened.is_complete_ = true;
@@ -52,67 +59,115 @@ Result<void> Directory::read_all(const ByteSource& source, const FileHeader& hea
   const std::uint64_t blocks = shape_.blocks(shape_.page_level());
   for (std::uint64_t block = 0; block < blocks; ++block) {
     const auto page = static_cast<std::uint32_t>(block * DirectoryShape::kFanOut);
-    if (const auto read = find(&source, header, page); !read) return read.error();
+    if (const auto read = entry(source, header, page); !read) return read.error();
   }
   return {};
 }
 
 Result<PageEntry> Directory::entry(const ByteSource& source, const FileHeader& header,
                                    std::uint32_t page) const noexcept {
-  if (is_complete_) return find(nullptr, header, page);
-  const std::scoped_lock lock(kept_->mutex);
-  return find(&source, header, page);
+  return find(source, header, page, read_block);
+}
+
+std::optional<PageEntry> Directory::try_entry(const ByteSource& source, const FileHeader& header,
+                                              std::uint32_t page) const noexcept {
+  const auto found = find(source, header, page, try_to_read_block);
+  return found ? std::optional(*found) : std::nullopt;
 }
 
 std::optional<PageEntry> Directory::kept_entry(const FileHeader& header,
                                                std::uint32_t page) const noexcept {
+  DirectoryPlace place = DirectoryPlace::root(header);
+  return find_kept(header, page, place);
+}
+
+std::optional<ByteRange> Directory::missing_block(const FileHeader& header,
+                                                  std::uint32_t page) const noexcept {
+  DirectoryPlace place = DirectoryPlace::root(header);
+  if (find_kept(header, page, place)) return {};
+  return ByteRange{directory_block_start(header, shape_, place.level, place.block),
+                   block_bytes(place)};
+}
+
+// Goes down from the root. Reads the blocks that are not in memory.
+Result<PageEntry> Directory::find(const ByteSource& source, const FileHeader& header,
+                                  std::uint32_t page, Read read) const noexcept {
+  DirectoryPlace place = DirectoryPlace::root(header);
+  for (;;) {
+    if (const auto entry = find_kept(header, page, place)) return *entry;
+    const auto done = read_step(source, header, place, page, read);
+    if (!done) return done.error();
+    if (done->entry) return *done->entry;
+    place = done->place;
+  }
+}
+
+// Goes down from `place` through blocks that are in memory. Sets it to the first one that is not.
+std::optional<PageEntry> Directory::find_kept(const FileHeader& header, std::uint32_t page,
+                                              DirectoryPlace& place) const noexcept {
   std::unique_lock<std::mutex> lock(kept_->mutex, std::defer_lock);
   if (!is_complete_) lock.lock();
-  const auto found = find(nullptr, header, page);
-  if (!found) return {};
-  return *found;
-}
-
-// Goes down from the root. Without `source`, only through blocks that are in memory.
-Result<PageEntry> Directory::find(const ByteSource* source, const FileHeader& header,
-                                  std::uint32_t page) const noexcept {
-  DirectoryPlace place = DirectoryPlace::root(header);
-  auto bytes = block(source, header, place);
-  while (bytes && place.level < shape_.page_level()) {
-    const std::uint64_t below = shape_.block_of_page(place.level + 1, page);
-    place = place_below(shape_, place, *bytes,
-                        static_cast<std::size_t>(below % DirectoryShape::kFanOut));
-    bytes = block(source, header, place);
+  while (const auto done = kept_step(header, place, page)) {
+    if (done->entry) return done->entry;
+    place = done->place;
   }
-  if (!bytes) return bytes.error();
-  return entry_in(header, place, *bytes, page % DirectoryShape::kFanOut);
+  return {};
 }
 
-Result<std::span<const std::byte>> Directory::block(const ByteSource* source,
-                                                    const FileHeader& header,
-                                                    const DirectoryPlace& place) const noexcept {
-  std::uint64_t number = place.block;
-  for (unsigned level = 0; level < place.level; ++level) number += shape_.blocks(level);
+std::optional<Directory::Step> Directory::kept_step(const FileHeader& header,
+                                                    const DirectoryPlace& place,
+                                                    std::uint32_t page) const noexcept {
+  const std::uint64_t number = number_of(place);
   const std::uint64_t at = slot_of(number);
   Slot& slot = kept_->slots[at];
-  const std::span<std::byte> bytes(
-      kept_->bytes.get() + at * DirectoryShape::kBlockBytes,
-      shape_.block_entries(place.level, place.block) * kDirectoryEntryBytes);
-  if (slot.number != number) {
-    if (!source) return not_kept();
-    slot.number = kNothing;
-    if (const auto done = read(*source, header, place, bytes); !done) return done.error();
-    slot.number = number;
-  }
+  if (slot.number != number) return {};
   if (!is_complete_) slot.last_use = ++kept_->uses;
-  return std::span<const std::byte>(bytes);
+  const std::byte* const bytes = kept_->bytes.get() + at * DirectoryShape::kBlockBytes;
+  return step(header, place, {bytes, block_bytes(place)}, page);
 }
 
-Result<void> Directory::read(const ByteSource& source, const FileHeader& header,
-                             const DirectoryPlace& place, std::span<std::byte> out) const noexcept {
+Directory::Step Directory::step(const FileHeader& header, const DirectoryPlace& place,
+                                std::span<const std::byte> block,
+                                std::uint32_t page) const noexcept {
+  if (place.level == shape_.page_level())
+    return {place, entry_in(header, place, block, page % DirectoryShape::kFanOut)};
+  const std::uint64_t below = shape_.block_of_page(place.level + 1, page);
+  return {
+      place_below(shape_, place, block, static_cast<std::size_t>(below % DirectoryShape::kFanOut)),
+      {}};
+}
+
+// Reads a block without the mutex, so that no thread waits for a read that it does not need.
+Result<Directory::Step> Directory::read_step(const ByteSource& source, const FileHeader& header,
+                                             const DirectoryPlace& place, std::uint32_t page,
+                                             Read read) const noexcept {
+  std::byte memory[DirectoryShape::kBlockBytes];
+  const std::span<std::byte> bytes(memory, block_bytes(place));
   const std::uint64_t offset = directory_block_start(header, shape_, place.level, place.block);
-  if (const auto done = source.read_at(offset, out, "read the directory"); !done) return done;
-  return check_directory_block(header, shape_, place, out);
+  if (const auto done = read(source, offset, bytes); !done) return done.error();
+  if (const auto checked = check_directory_block(header, shape_, place, bytes); !checked)
+    return checked.error();
+  keep(place, bytes);
+  return step(header, place, bytes, page);
+}
+
+void Directory::keep(const DirectoryPlace& place, std::span<const std::byte> block) const noexcept {
+  const std::scoped_lock lock(kept_->mutex);
+  const std::uint64_t number = number_of(place);
+  const std::uint64_t at = slot_of(number);
+  std::copy(block.begin(), block.end(), kept_->bytes.get() + at * DirectoryShape::kBlockBytes);
+  kept_->slots[at] = {number, ++kept_->uses};
+}
+
+// The number of a block, counted from the root on.
+std::uint64_t Directory::number_of(const DirectoryPlace& place) const noexcept {
+  std::uint64_t number = place.block;
+  for (unsigned level = 0; level < place.level; ++level) number += shape_.blocks(level);
+  return number;
+}
+
+std::size_t Directory::block_bytes(const DirectoryPlace& place) const noexcept {
+  return shape_.block_entries(place.level, place.block) * kDirectoryEntryBytes;
 }
 
 // The slot of a block that is kept; otherwise that of the block whose last use is longest ago.

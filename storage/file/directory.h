@@ -22,7 +22,7 @@ namespace planetree::storage {
 /// greater one, the root is read then and other blocks when they are needed; those that were used
 /// last stay.
 ///
-/// threads  any number at once; they wait for each other where blocks are read when needed
+/// threads  any number at once; none waits for the reads of another
 class Directory {
  public:
   static constexpr std::uint64_t kMaxBlocks = 256;  ///< hold the entries of 130,560 pages, in 3 MiB
@@ -42,8 +42,14 @@ class Directory {
   /// errors  kReadFailed, kTruncated, kDamaged
   Result<PageEntry> entry(const ByteSource& source, const FileHeader& header,
                           std::uint32_t page) const noexcept;
-  /// Returns the same if that reads nothing from the file.
+  /// Returns the same if that reads nothing from the file. Waits for no thread that reads.
   std::optional<PageEntry> kept_entry(const FileHeader& header, std::uint32_t page) const noexcept;
+  /// Returns where the first block is that entry() would read, or nothing if it would read none.
+  std::optional<ByteRange> missing_block(const FileHeader& header,
+                                         std::uint32_t page) const noexcept;
+  /// Returns the same as entry() if ByteSource::try_read() gives the blocks that it needs.
+  std::optional<PageEntry> try_entry(const ByteSource& source, const FileHeader& header,
+                                     std::uint32_t page) const noexcept;
 
   /// Bytes of memory that the blocks take.
   std::uint64_t memory_bytes() const noexcept {
@@ -67,12 +73,27 @@ class Directory {
   Result<void> read_all(const ByteSource& source, const FileHeader& header) noexcept;
   bool has_slot_for_all() const noexcept { return slot_count_ == shape_.blocks(); }
   bool reads_all_at_open(const ByteSource& source, const FileHeader& header) const noexcept;
-  Result<PageEntry> find(const ByteSource* source, const FileHeader& header,
-                         std::uint32_t page) const noexcept;
-  Result<std::span<const std::byte>> block(const ByteSource* source, const FileHeader& header,
-                                           const DirectoryPlace& place) const noexcept;
-  Result<void> read(const ByteSource& source, const FileHeader& header, const DirectoryPlace& place,
-                    std::span<std::byte> out) const noexcept;
+  // A step down from a block: to a block below, or to the entry of the page.
+  struct Step {
+    DirectoryPlace place;
+    std::optional<PageEntry> entry;
+  };
+  using Read = Result<void> (*)(const ByteSource& source, std::uint64_t offset,
+                                std::span<std::byte> out) noexcept;
+
+  Result<PageEntry> find(const ByteSource& source, const FileHeader& header, std::uint32_t page,
+                         Read read) const noexcept;
+  std::optional<PageEntry> find_kept(const FileHeader& header, std::uint32_t page,
+                                     DirectoryPlace& place) const noexcept;
+  std::optional<Step> kept_step(const FileHeader& header, const DirectoryPlace& place,
+                                std::uint32_t page) const noexcept;
+  Step step(const FileHeader& header, const DirectoryPlace& place, std::span<const std::byte> block,
+            std::uint32_t page) const noexcept;
+  Result<Step> read_step(const ByteSource& source, const FileHeader& header,
+                         const DirectoryPlace& place, std::uint32_t page, Read read) const noexcept;
+  void keep(const DirectoryPlace& place, std::span<const std::byte> block) const noexcept;
+  std::uint64_t number_of(const DirectoryPlace& place) const noexcept;
+  std::size_t block_bytes(const DirectoryPlace& place) const noexcept;
   std::uint64_t slot_of(std::uint64_t number) const noexcept;
 
   DirectoryShape shape_;

@@ -14,6 +14,17 @@
 namespace planetree::storage {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
+// Pages that are prefetched together.
+constexpr std::size_t kMaxRanges = 64;
+// Longer than any request takes.
+constexpr std::chrono::milliseconds kLongTime = std::chrono::hours(1);
+
+std::chrono::milliseconds time_until(Clock::time_point end) noexcept {
+  return std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now());
+}
+
 Error located(Error error, std::uint32_t page, std::uint64_t offset) noexcept {
   error.page = page;
   error.offset = offset;
@@ -165,17 +176,54 @@ Result<void> PageFile::read_page(std::uint32_t page, std::span<std::byte> stored
 }
 
 void PageFile::prefetch(std::span<const std::uint32_t> pages) const noexcept {
-  constexpr std::size_t kMaxRanges = 64;
+  prefetch_within(pages, kLongTime);
+}
+
+void PageFile::prefetch_within(std::span<const std::uint32_t> pages,
+                               std::chrono::milliseconds max_time) const noexcept {
   if (!source_->is_remote()) return;
-  ByteRange ranges[kMaxRanges];
+  const Clock::time_point end = Clock::now() + std::min(max_time, kLongTime);
   while (!pages.empty()) {
     const auto some = pages.first(std::min(pages.size(), kMaxRanges));
-    std::size_t count = 0;
-    for (const std::uint32_t page : some)
-      if (const auto found = entry(page)) ranges[count++] = {found->offset, found->stored_bytes};
-    source_->prefetch(std::span(ranges).first(count));
+    prefetch_blocks(some, end);
+    prefetch_pages(some, end);
     pages = pages.subspan(some.size());
   }
+}
+
+// Gets the blocks of the directory that tell where pages are.
+void PageFile::prefetch_blocks(std::span<const std::uint32_t> pages,
+                               Clock::time_point end) const noexcept {
+  ByteRange ranges[kMaxRanges];
+  for (unsigned level = 0; level < DirectoryShape::kMaxLevels; ++level) {
+    std::size_t count = 0;
+    for (const std::uint32_t page : pages) {
+      if (page >= page_count() || directory_->try_entry(*source_, header_, page)) continue;
+      if (const auto block = directory_->missing_block(header_, page)) ranges[count++] = *block;
+    }
+    const auto left = time_until(end);
+    if (count == 0 || left.count() <= 0) return;
+    source_->prefetch_within(std::span(ranges).first(count), left);
+  }
+}
+
+void PageFile::prefetch_pages(std::span<const std::uint32_t> pages,
+                              Clock::time_point end) const noexcept {
+  ByteRange ranges[kMaxRanges];
+  std::size_t count = 0;
+  for (const std::uint32_t page : pages) {
+    if (page >= page_count()) continue;
+    if (const auto found = directory_->try_entry(*source_, header_, page))
+      ranges[count++] = {found->offset, found->stored_bytes};
+  }
+  const auto left = time_until(end);
+  if (count == 0 || left.count() <= 0) return;
+  source_->prefetch_within(std::span(ranges).first(count), left);
+}
+
+bool PageFile::is_here(std::uint32_t page) const noexcept {
+  const std::optional<PageEntry> entry = kept_entry(page);
+  return entry && source_->is_here({entry->offset, entry->stored_bytes});
 }
 
 Result<bool> PageFile::try_read_page(std::uint32_t page, std::span<std::byte> stored_scratch,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -93,12 +94,22 @@ class PageFile {
   /// Lets the source of a remote file get pages that are read soon, many at once. Does nothing for
   /// a file of this machine, and for pages that do not exist.
   void prefetch(std::span<const std::uint32_t> pages) const noexcept;
+  /// Does the same for at most `max_time`.
+  void prefetch_within(std::span<const std::uint32_t> pages,
+                       std::chrono::milliseconds max_time) const noexcept;
+
+  /// Whether read_page() takes no request to another machine.
+  bool is_here(std::uint32_t page) const noexcept;
 
  private:
   PageFile() noexcept = default;
   Result<void> load_header() noexcept;
   Result<void> load_extensions();
   Result<void> load_directory() noexcept;
+  void prefetch_blocks(std::span<const std::uint32_t> pages,
+                       std::chrono::steady_clock::time_point end) const noexcept;
+  void prefetch_pages(std::span<const std::uint32_t> pages,
+                      std::chrono::steady_clock::time_point end) const noexcept;
   Result<void> check_page(std::uint32_t page) const noexcept;
   Result<void> check_buffers(std::uint32_t page, const PageEntry& entry,
                              std::span<std::byte> stored_scratch,

@@ -36,14 +36,26 @@ bool ClusterMemory::add_claim(std::uint64_t cluster, std::vector<Claim>& claims)
   return true;
 }
 
-bool ClusterMemory::copy(std::uint64_t offset, std::span<std::byte> out) noexcept {
-  if (out.empty()) return true;
-  const std::uint64_t first = offset / kClusterBytes;
-  const std::uint64_t last = (offset + out.size() - 1) / kClusterBytes;
-  for (std::uint64_t cluster = first; cluster <= last; ++cluster) {
+// Needs at least one byte.
+bool ClusterMemory::are_ready(std::uint64_t offset, std::uint64_t bytes) const noexcept {
+  const std::uint64_t last = (offset + bytes - 1) / kClusterBytes;
+  for (std::uint64_t cluster = offset / kClusterBytes; cluster <= last; ++cluster) {
     const std::size_t slot = find(cluster);
     if (slot == kNone || slots_[slot].state != State::kReady) return false;
   }
+  return true;
+}
+
+bool ClusterMemory::has(std::uint64_t offset, std::uint64_t bytes) noexcept {
+  const std::lock_guard lock(mutex_);
+  return bytes == 0 || are_ready(offset, bytes);
+}
+
+bool ClusterMemory::copy(std::uint64_t offset, std::span<std::byte> out) noexcept {
+  if (out.empty()) return true;
+  if (!are_ready(offset, out.size())) return false;
+  const std::uint64_t first = offset / kClusterBytes;
+  const std::uint64_t last = (offset + out.size() - 1) / kClusterBytes;
   for (std::uint64_t cluster = first; cluster <= last; ++cluster) {
     const std::size_t slot = find(cluster);
     slots_[slot].last_use = ++uses_;

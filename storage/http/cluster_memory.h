@@ -40,6 +40,8 @@ class ClusterMemory {
 
   /// Copies bytes if all their clusters are here, and no other thread is in the way.
   bool try_copy(std::uint64_t offset, std::span<std::byte> out) noexcept;
+  /// Whether all clusters of a range are here.
+  bool has(std::uint64_t offset, std::uint64_t bytes) noexcept;
   /// Copies bytes, or claims those of their clusters that are absent. Waits for other threads that
   /// load some of them.
   ///
@@ -75,6 +77,7 @@ class ClusterMemory {
   std::span<std::byte> bytes_of(std::size_t slot) const noexcept;
   std::size_t find(std::uint64_t cluster) const noexcept;
   bool add_claim(std::uint64_t cluster, std::vector<Claim>& claims);
+  bool are_ready(std::uint64_t offset, std::uint64_t bytes) const noexcept;
   bool copy(std::uint64_t offset, std::span<std::byte> out) noexcept;
 
   const std::uint64_t size_bytes_;

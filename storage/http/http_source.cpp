@@ -112,7 +112,7 @@ std::uint64_t HttpSource::memory_bytes() const noexcept {
 
 SourceStats HttpSource::stats() const noexcept {
   return {client_->request_count(), client_->byte_count(),
-          cached_bytes_.load(std::memory_order_relaxed)};
+          cached_bytes_.load(std::memory_order_relaxed), client_->round_count()};
 }
 
 bool HttpSource::try_read(std::uint64_t offset, std::span<std::byte> out,
@@ -144,7 +144,7 @@ Result<void> HttpSource::read_piece(std::uint64_t offset, std::span<std::byte> o
   for (;;) {
     memory_.copy_or_claim(offset, out, clusters_ahead(offset, out.size()), claims);
     if (claims.empty()) return {};
-    if (const auto loaded = load(claims); !loaded) return loaded;
+    if (const auto loaded = load(claims, RangeClient::kNoLimit); !loaded) return loaded;
   }
 }
 
@@ -173,7 +173,7 @@ void HttpSource::note_run(std::span<const Claim> claims) const noexcept {
 }
 
 // Returns the first failure. Clusters that came in spite of it stay.
-Result<void> HttpSource::load(std::span<Claim> claims) const {
+Result<void> HttpSource::load(std::span<Claim> claims, std::chrono::milliseconds max_time) const {
   Result<void> loaded;
   try {
     std::sort(claims.begin(), claims.end(),
@@ -181,7 +181,7 @@ Result<void> HttpSource::load(std::span<Claim> claims) const {
     note_run(claims);
     read_cached(claims);
     RequestPlan plan(claims);
-    if (!plan.requests.empty()) client_->fetch(plan.requests);
+    if (!plan.requests.empty()) client_->fetch(plan.requests, max_time);
     loaded = plan.finish(claims);
     for (std::size_t i = 0; i < claims.size() && file_; ++i)
       if (plan.is_new(i) && claims[i].is_loaded)
@@ -195,6 +195,11 @@ Result<void> HttpSource::load(std::span<Claim> claims) const {
 }
 
 void HttpSource::prefetch(std::span<const ByteRange> ranges) const noexcept {
+  prefetch_within(ranges, RangeClient::kNoLimit);
+}
+
+void HttpSource::prefetch_within(std::span<const ByteRange> ranges,
+                                 std::chrono::milliseconds max_time) const noexcept {
   try {
     std::vector<std::uint64_t> clusters;
     for (const ByteRange& range : ranges) {
@@ -207,10 +212,14 @@ void HttpSource::prefetch(std::span<const ByteRange> ranges) const noexcept {
     std::sort(clusters.begin(), clusters.end());
     clusters.erase(std::unique(clusters.begin(), clusters.end()), clusters.end());
     std::vector<Claim> claims = memory_.claim(clusters);
-    if (!claims.empty()) static_cast<void>(load(claims));
+    if (!claims.empty()) static_cast<void>(load(claims, max_time));
   } catch (const std::bad_alloc&) {
     return;  // read_at() reports it
   }
+}
+
+bool HttpSource::is_here(const ByteRange& range) const noexcept {
+  return memory_.has(range.offset, range.bytes);
 }
 
 bool HttpSource::forget(const ByteRange& range) const noexcept {

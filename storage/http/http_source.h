@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -53,6 +54,9 @@ class HttpSource final : public ByteSource {
   bool try_read(std::uint64_t offset, std::span<std::byte> out,
                 const ReadLimits& terms) const noexcept override;
   void prefetch(std::span<const ByteRange> ranges) const noexcept override;
+  void prefetch_within(std::span<const ByteRange> ranges,
+                       std::chrono::milliseconds max_time) const noexcept override;
+  bool is_here(const ByteRange& range) const noexcept override;
   bool forget(const ByteRange& range) const noexcept override;
 
  private:
@@ -62,7 +66,7 @@ class HttpSource final : public ByteSource {
              ObjectIdentity identity);
   void keep_head(std::span<const std::byte> head);
   Result<void> read_piece(std::uint64_t offset, std::span<std::byte> out) const;
-  Result<void> load(std::span<Claim> claims) const;
+  Result<void> load(std::span<Claim> claims, std::chrono::milliseconds max_time) const;
   void read_cached(std::span<Claim> claims) const;
   void note_run(std::span<const Claim> claims) const noexcept;
   std::uint64_t clusters_ahead(std::uint64_t offset, std::size_t bytes) const noexcept;

@@ -155,7 +155,7 @@ Result<ObjectIdentity> RangeClient::open(std::span<std::byte> out) {
     ObjectIdentity opened = identity_;
     {
       LaneLoan loan(*this);
-      fetch_in(loan.lane(), {&request, 1}, &opened);
+      fetch_in(loan.lane(), {&request, 1}, limits_.max_total, &opened);
     }
     if (!request.result) return request.result.error();
     identity_ = opened;
@@ -165,10 +165,10 @@ Result<ObjectIdentity> RangeClient::open(std::span<std::byte> out) {
   }
 }
 
-void RangeClient::fetch(std::span<RangeRequest> requests) noexcept {
+void RangeClient::fetch(std::span<RangeRequest> requests, milliseconds max_time) noexcept {
   try {
     LaneLoan loan(*this);
-    fetch_in(loan.lane(), requests, nullptr);
+    fetch_in(loan.lane(), requests, std::min(max_time, limits_.max_total), nullptr);
   } catch (const std::bad_alloc&) {
     for (RangeRequest& request : requests)
       if (!request.is_done) request.result = no_memory_for_requests();
@@ -176,8 +176,9 @@ void RangeClient::fetch(std::span<RangeRequest> requests) noexcept {
 }
 
 // Sends all requests, then those again that failed for a reason that may pass.
-void RangeClient::fetch_in(Lane& lane, std::span<RangeRequest> requests, ObjectIdentity* opened) {
-  const Clock::time_point end = Clock::now() + limits_.max_total;
+void RangeClient::fetch_in(Lane& lane, std::span<RangeRequest> requests, milliseconds max_time,
+                           ObjectIdentity* opened) {
+  const Clock::time_point end = Clock::now() + max_time;
   milliseconds pause = limits_.first_pause;
   for (unsigned attempt = 1;; ++attempt) {
     std::vector<std::unique_ptr<Transfer>> transfers;
@@ -191,7 +192,10 @@ void RangeClient::fetch_in(Lane& lane, std::span<RangeRequest> requests, ObjectI
     }
     if (transfers.empty()) return;
     const auto left = std::chrono::duration_cast<milliseconds>(end - Clock::now());
+    const std::uint64_t round =
+        round_count() + (transfers.size() + kMaxConnections - 1) / kMaxConnections;
     run(lane, transfers, std::max(left, milliseconds(1)));
+    end_round(round);
     milliseconds wanted_pause = pause;
     for (const auto& transfer : transfers) {
       judge(*transfer, attempt >= limits_.attempts);
@@ -208,6 +212,14 @@ void RangeClient::fetch_in(Lane& lane, std::span<RangeRequest> requests, ObjectI
     if (is_over || Clock::now() + wanted_pause >= end) return;
     std::this_thread::sleep_for(wanted_pause);
     pause *= 2;
+  }
+}
+
+// Notes that requests of a round have ended: every later one follows them.
+void RangeClient::end_round(std::uint64_t round) noexcept {
+  std::uint64_t last = round_count();
+  while (last < round &&
+         !round_count_.compare_exchange_weak(last, round, std::memory_order_relaxed)) {
   }
 }
 

@@ -38,6 +38,7 @@ class RangeClient {
  public:
   /// Maximum number of connections of one call.
   static constexpr long kMaxConnections = 6;
+  static constexpr std::chrono::milliseconds kNoLimit = std::chrono::milliseconds::max();
 
   RangeClient(std::string url, const HttpLimits& limits);
   ~RangeClient();
@@ -54,21 +55,31 @@ class RangeClient {
   /// Gets ranges, several at once. Repeats a request that fails for a reason that may pass, such as
   /// a lost connection, with pauses that double. Sets `result` of each:
   ///
-  /// errors  kReadFailed; kNotFound, kPermission; after an object that differs from the one of
-  ///         open(), every later request has the same error and is not sent
-  void fetch(std::span<RangeRequest> requests) noexcept;
+  /// max_time  of all attempts, if that is less than HttpLimits::max_total; then the requests that
+  ///           are on the way are given up
+  /// errors    kReadFailed; kNotFound, kPermission; after an object that differs from the one of
+  ///           open(), every later request has the same error and is not sent
+  void fetch(std::span<RangeRequest> requests,
+             std::chrono::milliseconds max_time = kNoLimit) noexcept;
 
   std::uint64_t request_count() const noexcept {
     return request_count_.load(std::memory_order_relaxed);
   }
   std::uint64_t byte_count() const noexcept { return byte_count_.load(std::memory_order_relaxed); }
+  /// Number of requests that were sent one after the reply of another, at most: those at once count
+  /// as one, as far as kMaxConnections allows.
+  std::uint64_t round_count() const noexcept {
+    return round_count_.load(std::memory_order_relaxed);
+  }
 
  private:
   struct Lane;      // connections of one call
   struct Transfer;  // one attempt of one request
   class LaneLoan;
 
-  void fetch_in(Lane& lane, std::span<RangeRequest> requests, ObjectIdentity* opened);
+  void fetch_in(Lane& lane, std::span<RangeRequest> requests, std::chrono::milliseconds max_time,
+                ObjectIdentity* opened);
+  void end_round(std::uint64_t round) noexcept;
   void run(Lane& lane, std::span<const std::unique_ptr<Transfer>> transfers,
            std::chrono::milliseconds max_time);
   void send(Lane& lane, Transfer& transfer, std::chrono::milliseconds max_time);
@@ -83,6 +94,7 @@ class RangeClient {
   std::atomic<bool> has_changed_{false};
   std::atomic<std::uint64_t> request_count_{0};
   std::atomic<std::uint64_t> byte_count_{0};
+  std::atomic<std::uint64_t> round_count_{0};
 };
 
 }  // namespace planetree::storage

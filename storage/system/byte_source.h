@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -22,6 +23,7 @@ struct SourceStats {
   std::uint64_t requests = 0;      ///< requests sent, repeated ones included
   std::uint64_t bytes = 0;         ///< bytes of replies, without their heads
   std::uint64_t cached_bytes = 0;  ///< bytes that a cache on disk had instead
+  std::uint64_t rounds = 0;        ///< round trips one after the other: requests at once count once
 };
 
 /// Immutable bytes of a known length that are read by ranges: a file of this machine, or an object
@@ -63,6 +65,13 @@ class ByteSource {
   ///
   /// ranges  within the source, in any order
   virtual void prefetch(std::span<const ByteRange> /*ranges*/) const noexcept {}
+  /// Does the same for at most `max_time`. What has not come by then is given up.
+  virtual void prefetch_within(std::span<const ByteRange> ranges,
+                               std::chrono::milliseconds /*max_time*/) const noexcept {
+    prefetch(ranges);
+  }
+  /// Whether read_at() of a range takes no request to another machine.
+  virtual bool is_here(const ByteRange& /*range*/) const noexcept { return true; }
   /// Forgets what the source keeps of a range, because the bytes were wrong. Returns whether a
   /// second read may find others.
   virtual bool forget(const ByteRange& /*range*/) const noexcept { return false; }
