@@ -1,13 +1,18 @@
 #include "storage/http/cluster_memory.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstring>
 #include <new>
 
 namespace planetree::storage {
 
-ClusterMemory::ClusterMemory(std::uint64_t size_bytes)
-    : size_bytes_(size_bytes), memory_(new (std::nothrow) std::byte[kBytes]) {}
+ClusterMemory::ClusterMemory(std::uint64_t size_bytes, std::size_t slots)
+    : size_bytes_(size_bytes),
+      memory_(new (std::nothrow) std::byte[slots * kClusterBytes]),
+      slots_(slots) {
+  assert(slots >= kMinSlots);
+}
 
 std::span<std::byte> ClusterMemory::bytes_of(std::size_t slot) const noexcept {
   const std::uint64_t left = size_bytes_ - slots_[slot].cluster * kClusterBytes;
@@ -17,7 +22,7 @@ std::span<std::byte> ClusterMemory::bytes_of(std::size_t slot) const noexcept {
 
 // The slot that has or loads a cluster.
 std::size_t ClusterMemory::find(std::uint64_t cluster) const noexcept {
-  for (std::size_t i = 0; i < kSlots; ++i)
+  for (std::size_t i = 0; i < slots_.size(); ++i)
     if (slots_[i].state != State::kFree && slots_[i].cluster == cluster) return i;
   return kNone;
 }
@@ -25,7 +30,7 @@ std::size_t ClusterMemory::find(std::uint64_t cluster) const noexcept {
 // Takes the slot whose last use is longest ago. Returns false if all are being loaded.
 bool ClusterMemory::add_claim(std::uint64_t cluster, std::vector<Claim>& claims) {
   std::size_t oldest = kNone;
-  for (std::size_t i = 0; i < kSlots; ++i) {
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
     if (slots_[i].state == State::kLoading) continue;
     if (oldest == kNone || slots_[i].last_use < slots_[oldest].last_use) oldest = i;
   }
@@ -96,7 +101,7 @@ std::vector<ClusterMemory::Claim> ClusterMemory::claim(std::span<const std::uint
   std::vector<Claim> claims;
   const std::lock_guard lock(mutex_);
   for (const std::uint64_t cluster : clusters) {
-    if (claims.size() == kSlots / 2) break;
+    if (claims.size() == slots_.size() / 2) break;
     const std::size_t slot = find(cluster);
     if (slot != kNone) {
       slots_[slot].last_use = ++uses_;

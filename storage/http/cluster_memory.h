@@ -20,10 +20,8 @@ inline constexpr std::uint64_t kClusterBytes = std::uint64_t{256} << 10;
 /// threads  any number at once
 class ClusterMemory {
  public:
-  /// A batch of points reads at several places of the file in turns: one for each level of the
-  /// trees, and for each thread. With 24 slots they displaced each other.
-  static constexpr std::size_t kSlots = 64;
-  static constexpr std::uint64_t kBytes = kSlots * kClusterBytes;
+  /// Fewer do not suffice for one copy, which other threads let wait.
+  static constexpr std::size_t kMinSlots = 8;
   /// Maximum number of bytes of one copy.
   static constexpr std::uint64_t kMaxCopyBytes = 4 * kClusterBytes;
 
@@ -34,8 +32,13 @@ class ClusterMemory {
     bool is_loaded = false;
   };
 
-  /// Claims kBytes of memory. ok() says whether the system gave them.
-  explicit ClusterMemory(std::uint64_t size_bytes);
+  /// Takes memory for `slots` clusters. ok() says whether the system gave it.
+  ///
+  /// slots   at least kMinSlots. A batch of points reads at several places of the file in turns:
+  ///         one for each level of the trees, and for each thread. With 24 slots they displaced
+  ///         each other.
+  /// throws  std::bad_alloc
+  ClusterMemory(std::uint64_t size_bytes, std::size_t slots);
   bool ok() const noexcept { return memory_ != nullptr; }
 
   /// Copies bytes if all their clusters are here, and no other thread is in the way.
@@ -72,7 +75,7 @@ class ClusterMemory {
     std::uint64_t cluster = 0;
     std::uint64_t last_use = 0;
   };
-  static constexpr std::size_t kNone = kSlots;
+  static constexpr std::size_t kNone = ~std::size_t{0};
 
   std::span<std::byte> bytes_of(std::size_t slot) const noexcept;
   std::size_t find(std::uint64_t cluster) const noexcept;
@@ -84,7 +87,7 @@ class ClusterMemory {
   std::unique_ptr<std::byte[]> memory_;
   std::mutex mutex_;
   std::condition_variable loaded_;
-  Slot slots_[kSlots];
+  std::vector<Slot> slots_;
   std::uint64_t uses_ = 0;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 
@@ -21,6 +22,7 @@ struct HttpOptions {
   std::filesystem::path cache_directory{};
   std::uint64_t cache_bytes = std::uint64_t{1} << 30;  ///< maximum length of the cluster file
   HttpLimits limits{};
+  std::size_t clusters = 64;  ///< kept in memory, at least ClusterMemory::kMinSlots
 };
 
 }  // namespace planetree::storage

@@ -73,7 +73,7 @@ Result<std::unique_ptr<ByteSource>> HttpSource::open(const std::string& url,
     // Without a validator, a cluster of an earlier object might be taken for one of this.
     if (!identity->has_validator()) file.reset();
     std::unique_ptr<HttpSource> source(
-        new HttpSource(std::move(client), std::move(file), *std::move(identity)));
+        new HttpSource(std::move(client), std::move(file), *std::move(identity), options.clusters));
     if (!source->memory_.ok()) return no_memory_to_read();
     head.resize(static_cast<std::size_t>(std::min(source->size_bytes(), kHeadBytes)));
     source->keep_head(head);
@@ -84,13 +84,14 @@ Result<std::unique_ptr<ByteSource>> HttpSource::open(const std::string& url,
 }
 
 HttpSource::HttpSource(std::unique_ptr<RangeClient> client, std::unique_ptr<ClusterFile> file,
-                       ObjectIdentity identity)
+                       ObjectIdentity identity, std::size_t clusters)
     : identity_(std::move(identity)),
       key_(identity_.key()),
       name_(shown_url(identity_.url)),
       client_(std::move(client)),
       file_(std::move(file)),
-      memory_(identity_.size_bytes) {}
+      clusters_(clusters),
+      memory_(identity_.size_bytes, clusters) {}
 
 void HttpSource::keep_head(std::span<const std::byte> head) {
   std::vector<std::uint64_t> clusters;
@@ -107,7 +108,11 @@ void HttpSource::keep_head(std::span<const std::byte> head) {
 }
 
 std::uint64_t HttpSource::memory_bytes() const noexcept {
-  return ClusterMemory::kBytes + kClientBytes + sizeof *this;
+  return memory_bytes(HttpOptions{.clusters = clusters_});
+}
+
+std::uint64_t HttpSource::memory_bytes(const HttpOptions& options) noexcept {
+  return options.clusters * kClusterBytes + kClientBytes + sizeof(HttpSource);
 }
 
 SourceStats HttpSource::stats() const noexcept {

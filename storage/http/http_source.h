@@ -26,7 +26,7 @@ namespace planetree::storage {
 ///
 /// If the server has another object later, every read of what is not in memory fails.
 ///
-/// memory   ClusterMemory::kBytes, and about 64 KiB for each connection
+/// memory   HttpOptions::clusters, and about 64 KiB for each connection
 /// threads  any number at once
 class HttpSource final : public ByteSource {
  public:
@@ -41,6 +41,8 @@ class HttpSource final : public ByteSource {
   /// errors  those of RangeClient::open() and ClusterFile::open(); kNoMemory
   static Result<std::unique_ptr<ByteSource>> open(const std::string& url,
                                                   const HttpOptions& options);
+  /// What memory_bytes() returns of a source that is opened with these options.
+  static std::uint64_t memory_bytes(const HttpOptions& options) noexcept;
 
   std::string_view name() const noexcept override { return name_; }
   bool is_remote() const noexcept override { return true; }
@@ -63,7 +65,7 @@ class HttpSource final : public ByteSource {
   using Claim = ClusterMemory::Claim;
 
   HttpSource(std::unique_ptr<RangeClient> client, std::unique_ptr<ClusterFile> file,
-             ObjectIdentity identity);
+             ObjectIdentity identity, std::size_t clusters);
   void keep_head(std::span<const std::byte> head);
   Result<void> read_piece(std::uint64_t offset, std::span<std::byte> out) const;
   Result<void> load(std::span<Claim> claims, std::chrono::milliseconds max_time) const;
@@ -76,6 +78,7 @@ class HttpSource final : public ByteSource {
   const std::string name_;
   const std::unique_ptr<RangeClient> client_;
   const std::unique_ptr<ClusterFile> file_;  // null: none
+  const std::size_t clusters_;               // in memory
   mutable ClusterMemory memory_;
   mutable std::atomic<std::uint64_t> cached_bytes_{0};
   // The cluster behind the last request, and how many requests before it followed each other.

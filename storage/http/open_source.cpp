@@ -20,4 +20,12 @@ Result<std::unique_ptr<ByteSource>> open_source(const std::filesystem::path& pat
 #endif
 }
 
+std::uint64_t memory_of_url([[maybe_unused]] const HttpOptions& options) noexcept {
+#if PLANETREE_WITH_HTTP
+  return HttpSource::memory_bytes(options);
+#else
+  return sizeof(HttpOptions);  // none is ever opened
+#endif
+}
+
 }  // namespace planetree::storage

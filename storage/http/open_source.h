@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 
@@ -20,5 +21,8 @@ namespace planetree::storage {
 Result<std::unique_ptr<ByteSource>> open_source(const std::filesystem::path& path,
                                                 const HttpOptions& options = {},
                                                 FileCalls& calls = FileCalls::real());
+
+/// Memory in bytes that the source of a URL takes.
+std::uint64_t memory_of_url(const HttpOptions& options) noexcept;
 
 }  // namespace planetree::storage

@@ -4,6 +4,7 @@
 #include <new>
 #include <utility>
 
+#include "storage/http/cluster_memory.h"
 #include "storage/http/http_url.h"
 #include "storage/http/open_source.h"
 #include "storage/set/member_address.h"
@@ -18,6 +19,12 @@ bool is_remote(const std::filesystem::path& set, const SetDescription& descripti
                      [](const SetMember& member) { return is_http_url(member.address); });
 }
 
+// Many members get less memory each.
+HttpOptions options_of_members(HttpOptions http, std::size_t members) {
+  http.clusters = std::max(http.clusters / members, ClusterMemory::kMinSlots);
+  return http;
+}
+
 Result<std::unique_ptr<SetSource>> read_set(const std::filesystem::path& path,
                                             const ModelSourceOptions& options, FileCalls& calls) {
   const auto file = open_source(path, options.http, calls);
@@ -25,13 +32,14 @@ Result<std::unique_ptr<SetSource>> read_set(const std::filesystem::path& path,
   auto description = SetDescription::read(**file);
   if (!description) return description.error();
   const bool remote = is_remote(path, *description);
-  const auto open = [path, http = options.http,
+  const HttpOptions http = options_of_members(options.http, description->members.size());
+  const auto open = [path, http,
                      &calls](const std::string& address) -> Result<std::unique_ptr<ByteSource>> {
     const auto member = member_path(path, address);
     if (!member) return member.error();
     return open_source(*member, http, calls);
   };
-  auto set = std::make_unique<SetSource>(*std::move(description), remote,
+  auto set = std::make_unique<SetSource>(*std::move(description), remote ? memory_of_url(http) : 0,
                                          std::string((*file)->name()), open);
   if (!remote && !options.allows_missing_members)
     if (const auto opened = set->open_all(); !opened) return opened.error();

@@ -7,9 +7,10 @@
 
 namespace planetree::storage {
 
-SetSource::SetSource(SetDescription description, bool remote, std::string name, Open open)
+SetSource::SetSource(SetDescription description, std::uint64_t member_memory, std::string name,
+                     Open open)
     : description_(std::move(description)),
-      remote_(remote),
+      member_memory_(member_memory),
       name_(std::move(name)),
       open_(std::move(open)),
       sources_(description_.members.size()),
@@ -117,16 +118,22 @@ bool SetSource::try_read(std::uint64_t offset, std::span<std::byte> out,
   });
 }
 
+/// The parts of ranges, by member. Ranges beyond the end are left out.
+std::vector<std::vector<ByteRange>> SetSource::divide(std::span<const ByteRange> ranges) const {
+  std::vector<std::vector<ByteRange>> of_member(ends_.size());
+  for (const ByteRange& range : ranges) {
+    if (range.offset > size_bytes() || range.bytes > size_bytes() - range.offset) continue;
+    for_each_piece(range, [&](const Piece& piece, std::uint64_t) {
+      of_member[piece.member].push_back({piece.offset, piece.bytes});
+      return true;
+    });
+  }
+  return of_member;
+}
+
 void SetSource::prefetch(std::span<const ByteRange> ranges) const noexcept {
   try {
-    std::vector<std::vector<ByteRange>> of_member(description_.members.size());
-    for (const ByteRange& range : ranges) {
-      if (range.offset > size_bytes() || range.bytes > size_bytes() - range.offset) continue;
-      for_each_piece(range, [&](const Piece& piece, std::uint64_t) {
-        of_member[piece.member].push_back({piece.offset, piece.bytes});
-        return true;
-      });
-    }
+    const auto of_member = divide(ranges);
     for (std::size_t i = 0; i < of_member.size(); ++i) {
       if (of_member[i].empty()) continue;
       if (const auto source = open_member(i)) (*source)->prefetch(of_member[i]);
@@ -134,6 +141,30 @@ void SetSource::prefetch(std::span<const ByteRange> ranges) const noexcept {
   } catch (const std::bad_alloc&) {
     return;  // read_at() reads them all the same
   }
+}
+
+void SetSource::prefetch_within(std::span<const ByteRange> ranges,
+                                std::chrono::milliseconds max_time) const noexcept {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point end = Clock::now() + max_time;
+  try {
+    const auto of_member = divide(ranges);
+    for (std::size_t i = 0; i < of_member.size(); ++i) {
+      const ByteSource* const source = opened(i);
+      const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now());
+      if (of_member[i].empty() || !source || left.count() <= 0) continue;
+      source->prefetch_within(of_member[i], left);
+    }
+  } catch (const std::bad_alloc&) {
+    return;  // read_at() reads them all the same
+  }
+}
+
+bool SetSource::is_here(const ByteRange& range) const noexcept {
+  return for_each_piece(range, [&](const Piece& piece, std::uint64_t) {
+    const ByteSource* const source = opened(piece.member);
+    return source && source->is_here({piece.offset, piece.bytes});
+  });
 }
 
 bool SetSource::forget(const ByteRange& range) const noexcept {
@@ -146,13 +177,6 @@ bool SetSource::forget(const ByteRange& range) const noexcept {
   return may_differ;
 }
 
-std::uint64_t SetSource::memory_bytes() const noexcept {
-  std::uint64_t sum = sizeof *this;
-  for (std::size_t i = 0; i < sources_.size(); ++i)
-    if (const ByteSource* const source = opened(i)) sum += source->memory_bytes();
-  return sum;
-}
-
 SourceStats SetSource::stats() const noexcept {
   SourceStats sum;
   for (std::size_t i = 0; i < sources_.size(); ++i) {
@@ -162,6 +186,7 @@ SourceStats SetSource::stats() const noexcept {
     sum.requests += some.requests;
     sum.bytes += some.bytes;
     sum.cached_bytes += some.cached_bytes;
+    sum.rounds += some.rounds;
   }
   return sum;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -26,9 +27,9 @@ class SetSource final : public ByteSource {
   /// Opens the source of a member.
   using Open = std::function<Result<std::unique_ptr<ByteSource>>(const std::string& address)>;
 
-  /// remote  whether a member is on another machine
-  /// name    see ByteSource::name()
-  SetSource(SetDescription description, bool remote, std::string name, Open open);
+  /// member_memory  memory that an open member takes, in bytes; 0: no member is on another machine
+  /// name           see ByteSource::name()
+  SetSource(SetDescription description, std::uint64_t member_memory, std::string name, Open open);
 
   const SetDescription& description() const noexcept { return description_; }
   /// Opens all members. Returns the first error, whose text names the member.
@@ -39,9 +40,11 @@ class SetSource final : public ByteSource {
   Result<const ByteSource*> open_member(std::size_t member) const;
 
   std::string_view name() const noexcept override { return name_; }
-  bool is_remote() const noexcept override { return remote_; }
+  bool is_remote() const noexcept override { return member_memory_ > 0; }
   std::uint64_t size_bytes() const noexcept override { return ends_.back(); }
-  std::uint64_t memory_bytes() const noexcept override;
+  std::uint64_t memory_bytes() const noexcept override {
+    return sizeof *this + member_memory_ * ends_.size();
+  }
   SourceStats stats() const noexcept override;
   Result<void> read_at(std::uint64_t offset, std::span<std::byte> out,
                        const char* what) const noexcept override;
@@ -49,6 +52,10 @@ class SetSource final : public ByteSource {
                 const ReadLimits& terms) const noexcept override;
   Result<void> read_early(std::uint64_t offset, std::span<std::byte> out) const noexcept override;
   void prefetch(std::span<const ByteRange> ranges) const noexcept override;
+  /// Members that are not open are left to read_at().
+  void prefetch_within(std::span<const ByteRange> ranges,
+                       std::chrono::milliseconds max_time) const noexcept override;
+  bool is_here(const ByteRange& range) const noexcept override;
   bool forget(const ByteRange& range) const noexcept override;
 
  private:
@@ -61,6 +68,7 @@ class SetSource final : public ByteSource {
   Piece piece_at(const ByteRange& range) const noexcept;
   template <class Visit>
   bool for_each_piece(ByteRange range, const Visit& visit) const noexcept;
+  std::vector<std::vector<ByteRange>> divide(std::span<const ByteRange> ranges) const;
   template <class Read>
   Result<void> read_pieces(std::uint64_t offset, std::span<std::byte> out,
                            const Read& read) const noexcept;
@@ -68,7 +76,7 @@ class SetSource final : public ByteSource {
   Error named(std::size_t member, const Error& error) const noexcept;
 
   const SetDescription description_;
-  const bool remote_;
+  const std::uint64_t member_memory_;
   const std::string name_;
   const Open open_;
   std::vector<std::uint64_t> ends_;  // of the members, from the start of the set
