@@ -32,7 +32,7 @@ list(TRANSFORM planetree_headers PREPEND ${PROJECT_SOURCE_DIR}/include/planetree
 set(planetree_library_layers
   error storage_system storage_file storage_http storage_spill cache_policy cache
   geometry page field attributes traversal nearest winding mask
-  builder_job builder_mesh_stream builder_mesh_gltf builder_mesh_obj builder_mesh builder_sort builder_surface builder_tree
+  builder_job builder_mesh_stream builder_mesh_gltf builder_mesh_obj builder_mesh_sequence builder_mesh builder_sort builder_surface builder_tree
   builder_mask builder_field builder_attributes builder shard
   query_file query_answer query_serve query query_shell query_scene c)
 

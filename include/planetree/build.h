@@ -23,7 +23,7 @@
 #include "planetree/types.h"
 
 /// @file
-/// Building a .ptree file: from a mesh file, from a mesh in memory, or from a callback that streams
+/// Building a .ptree file: from mesh files, from a mesh in memory, or from a callback that streams
 /// triangles. The mesh and the tree together may be larger than memory.
 
 namespace planetree {
@@ -46,7 +46,7 @@ using TriangleSource = std::function<Result<std::size_t>(std::span<TriangleCorne
 /// from 0. Skipped triangles count too.
 ///
 /// Equal triangles in equal order give equal files, with one exception: ModelInfo::vertices is the
-/// number of vertices that a mesh file or a mesh in memory lists, and three per triangle for a
+/// number of vertices that mesh files or a mesh in memory list, and three per triangle for a
 /// callback or an STL file. If every coordinate is exactly a float, the file stores floats, even if
 /// the input has doubles.
 class BuildInput {
@@ -70,8 +70,12 @@ class BuildInput {
     /// depend on it.
     std::uint64_t expected_triangles = 0;
   };
+  /// Mesh files, two or more, that together are one mesh.
+  struct Files {
+    std::vector<std::filesystem::path> paths;  ///< in the order of the triangles
+  };
   /// One of the kinds of input.
-  using Content = std::variant<std::filesystem::path, Mesh<Vec3>, Mesh<FloatVertex>, Stream>;
+  using Content = std::variant<std::filesystem::path, Mesh<Vec3>, Mesh<FloatVertex>, Stream, Files>;
 
   /// A mesh file: PLY, STL or OFF (text or binary), glTF 2.0 (JSON or binary) or OBJ, as it is or
   /// compressed by gzip or zstd. docs/formats.md lists what is read of each. The format is detected
@@ -82,6 +86,16 @@ class BuildInput {
   requires std::convertible_to<const Path&, std::filesystem::path> &&
       (!std::same_as<Path, BuildInput>)BuildInput(const Path& path)
       : content_(std::filesystem::path(path)) {}
+  /// Mesh files that together are one mesh, under the same rules; their formats may differ. The
+  /// triangles, and so their indices, follow each other in the order of the files. Each file must
+  /// have a usable triangle, and all attributes that BuildOptions::keep names, of the same type. An
+  /// empty list is an error of the build; a list of one is that file.
+  explicit BuildInput(std::vector<std::filesystem::path> paths) {
+    if (paths.size() == 1)
+      content_ = std::move(paths.front());
+    else
+      content_ = Files{std::move(paths)};
+  }
   /// A mesh in memory. The arrays are not copied. They must stay unchanged until build() returns.
   BuildInput(std::span<const Vec3> vertices, std::span<const TriangleVertices> triangles)
       : content_(Mesh<Vec3>{vertices, triangles}) {}
@@ -211,8 +225,8 @@ struct BuildOptions {
   /// The call comes from the thread that called build().
   std::function<void(const std::string& line)> on_resume;
   /// Called once before an error is returned, with the file or directory that the error concerns.
-  /// The path is empty if that is an input in memory or a callback. The call comes from the thread
-  /// that called build().
+  /// The path is empty if that is an input in memory, a callback or several files as a whole. The
+  /// call comes from the thread that called build().
   std::function<void(const std::filesystem::path& path)> on_failure;
 
   /// Minimum of `memory_bytes`; it suffices for one thread.
@@ -229,7 +243,8 @@ struct BuildReport {
   std::uint64_t first_skipped = kNoTriangle;  ///< the lowest of these indices, or kNoTriangle
   std::string first_skipped_text;  ///< what is wrong with that record; empty if there is none
   /// What the reader of a file ignored or changed: a line for each kind, with its count and the
-  /// place of the first.
+  /// place of the first. If the input is several files, each of these lines, and each text about a
+  /// record here, begins with the path of the file.
   std::vector<std::string> notes;
   /// Number of polygons that are not convex and whose corners are not in one plane. They are split
   /// as seen along an axis.

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <vector>
 
 #include "planetree/build.h"
 #include "planetree/error.h"
@@ -12,7 +13,7 @@
 /// the job. A scheduler of the caller runs the steps. Each step reads files of the job and leaves
 /// one, complete or not at all, so that it can be killed at any time, and run again, anywhere.
 ///
-///     plan_shards()   once: reads the mesh
+///     plan_shards()   once: reads the mesh, of one file or several
 ///     map_shard()     for each shard, in any order: sorts a part of the triangles
 ///     reduce_shard()  for each shard, after all of map_shard(): builds a part of the tree
 ///     merge_shards()  once, after all of reduce_shard(): writes the file
@@ -36,7 +37,7 @@ struct ShardPlanReport {
   std::uint32_t shards = 0;
   std::uint64_t triangles = 0;     ///< usable triangles of the mesh
   std::uint64_t skipped = 0;       ///< triangle indices of skipped records
-  std::uint64_t input_bytes = 0;   ///< length of the mesh file
+  std::uint64_t input_bytes = 0;   ///< length of the mesh files
   std::uint64_t plan_bytes = 0;    ///< attributes that the plan keeps
   std::uint64_t sorted_bytes = 0;  ///< length of all results of map_shard()
   std::uint64_t built_bytes = 0;   ///< estimate of the length of all results of reduce_shard()
@@ -69,6 +70,14 @@ inline constexpr std::uint32_t kMaxShards = 16384;
                                                                 const std::filesystem::path& job,
                                                                 std::uint32_t shards,
                                                                 const BuildOptions& options = {});
+
+/// As above, of mesh files that together are one mesh, as for BuildInput. map_shard() reads only
+/// the files that have triangles of its part.
+///
+/// inputs  at least one path.
+[[nodiscard]] PLANETREE_API Result<ShardPlanReport> plan_shards(
+    const std::vector<std::filesystem::path>& inputs, const std::filesystem::path& job,
+    std::uint32_t shards, const BuildOptions& options = {});
 
 /// Sorts one of `shards` parts of the triangles, by Morton code.
 ///

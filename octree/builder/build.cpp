@@ -1,7 +1,7 @@
 #include "planetree/build.h"
 
 #include "octree/builder/build_call.h"
-#include "octree/builder/build_files.h"
+#include "octree/builder/job/input_paths.h"
 #include "octree/builder/tree_builder.h"
 #include "storage/file/metadata.h"
 

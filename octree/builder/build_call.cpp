@@ -6,8 +6,8 @@
 #include <cerrno>
 #include <system_error>
 
-#include "octree/builder/build_files.h"
 #include "octree/builder/job/build_memory.h"
+#include "octree/builder/job/input_paths.h"
 #include "storage/file/file_layout.h"
 #include "storage/system/file_error.h"
 
@@ -93,8 +93,9 @@ Result<void> check_output(const BuildInput& input, const fs::path& output, bool 
   std::error_code ignored;
   if (fs::is_directory(output, ignored))
     return error_of(ErrorCode::kBadArgument, "this is a directory; name a file in it");
-  if (fs::equivalent(path_of(input), output, ignored))
-    return error_of(ErrorCode::kBadArgument, "this is the input itself; name another output");
+  for (const fs::path& path : paths_of(input))
+    if (fs::equivalent(path, output, ignored))
+      return error_of(ErrorCode::kBadArgument, "this is the input itself; name another output");
   if (fs::exists(fs::symlink_status(output, ignored)) && !replace)
     return error_of(ErrorCode::kAlreadyExists,
                     "the file exists; use --force to replace it, or another name");

@@ -1,14 +1,8 @@
 #include "octree/builder/build_files.h"
 
 #include <utility>
-#include <variant>
 
 namespace planetree::octree {
-
-std::filesystem::path path_of(const BuildInput& input) {
-  const auto* const path = std::get_if<std::filesystem::path>(&input.content());
-  return path ? *path : std::filesystem::path();
-}
 
 BuildFiles::BuildFiles(const std::filesystem::path& output, const BuildOptions& options,
                        const BuildMemory& memory, storage::FileCalls& calls)

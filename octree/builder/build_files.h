@@ -13,15 +13,11 @@
 #include "octree/builder/job/build_progress.h"
 #include "octree/builder/mesh/stream/mesh_scratch.h"
 #include "octree/builder/space_need.h"
-#include "planetree/build.h"
 #include "planetree/error.h"
 #include "storage/spill/spill_file.h"
 #include "storage/system/file_calls.h"
 
 namespace planetree::octree {
-
-/// Path of an input; empty if it is in memory or a callback.
-std::filesystem::path path_of(const BuildInput& input);
 
 /// The files of a build beside its input and output: temporary files without names and, for a build
 /// that can be resumed, the checkpoint.
@@ -45,6 +41,7 @@ class BuildFiles {
 
   /// For reading the mesh.
   MeshScratch& mesh() { return mesh_; }
+  const MeshScratch& mesh() const { return mesh_; }
   /// For data that only this process needs.
   storage::SpillFile& scratch() { return scratch_; }
   /// For data that a later build could resume: sorted triangles, and pages.

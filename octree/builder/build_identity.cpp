@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <tuple>
+#include <numeric>
 #include <variant>
 #include <vector>
 
@@ -18,7 +18,7 @@ namespace planetree::octree {
 namespace {
 
 /// To be raised with every change of the records or of what trees consist of.
-constexpr int kWorkVersion = 10;
+constexpr int kWorkVersion = 11;
 
 constexpr std::uint64_t kSampleBlocks = 64;
 constexpr std::uint64_t kBlockBytes = 4096;
@@ -46,7 +46,7 @@ Result<storage::Hash128> sample_of(const storage::FileHandle& file, std::uint64_
   return hasher.value();
 }
 
-Result<BuildIdentity> identity_of_file(const std::filesystem::path& input,
+Result<InputIdentity> identity_of_file(const std::filesystem::path& input,
                                        storage::FileCalls& calls) {
   // With O_NONBLOCK a FIFO without a writer is refused instead of waited for.
   const auto file =
@@ -57,12 +57,12 @@ Result<BuildIdentity> identity_of_file(const std::filesystem::path& input,
   if (!S_ISREG(status.st_mode))
     return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
                       "not a regular file; a mesh is read out of order, so copy it into a file");
-  BuildIdentity identity;
-  identity.input_bytes = static_cast<std::uint64_t>(status.st_size);
-  identity.input_number = status.st_ino;
+  InputIdentity identity;
+  identity.bytes = static_cast<std::uint64_t>(status.st_size);
+  identity.number = status.st_ino;
   identity.changed_seconds = status.st_ctim.tv_sec;
   identity.changed_nanoseconds = status.st_ctim.tv_nsec;
-  const auto sample = sample_of(file, identity.input_bytes);
+  const auto sample = sample_of(file, identity.bytes);
   if (!sample) return sample.error();
   identity.sample_low = sample->low;
   identity.sample_high = sample->high;
@@ -70,17 +70,17 @@ Result<BuildIdentity> identity_of_file(const std::filesystem::path& input,
 }
 
 // That of other files which the mesh is read with is part of the sample.
-Result<BuildIdentity> identity_of(const std::filesystem::path& input, storage::FileCalls& calls) {
+Result<InputIdentity> identity_of(const std::filesystem::path& input, storage::FileCalls& calls) {
   auto identity = identity_of_file(input, calls);
   if (!identity) return identity;
   const auto side_files = side_files_of(input, calls);
   if (!side_files) return side_files.error();
   if (side_files->empty()) return identity;
   storage::Hasher hasher;
-  const auto add = [&hasher](const BuildIdentity& of) {
+  const auto add = [&hasher](const InputIdentity& of) {
     const std::array<std::uint64_t, 6> numbers = {
-        of.input_bytes,
-        of.input_number,
+        of.bytes,
+        of.number,
         static_cast<std::uint64_t>(of.changed_seconds),
         static_cast<std::uint64_t>(of.changed_nanoseconds),
         of.sample_low,
@@ -91,7 +91,7 @@ Result<BuildIdentity> identity_of(const std::filesystem::path& input, storage::F
   for (const std::filesystem::path& path : *side_files) {
     const auto side = identity_of_file(path, calls);
     // The reader of the mesh names the file that it cannot open.
-    add(side ? *side : BuildIdentity());
+    add(side ? *side : InputIdentity());
   }
   identity->sample_low = hasher.value().low;
   identity->sample_high = hasher.value().high;
@@ -99,7 +99,7 @@ Result<BuildIdentity> identity_of(const std::filesystem::path& input, storage::F
 }
 
 template <class Vertex>
-BuildIdentity identity_of(const BuildInput::Mesh<Vertex>& mesh) {
+InputIdentity identity_of(const BuildInput::Mesh<Vertex>& mesh) {
   storage::Hasher hasher;
   hasher.add(std::as_bytes(mesh.vertices));
   hasher.add(std::as_bytes(mesh.triangles));
@@ -107,29 +107,56 @@ BuildIdentity identity_of(const BuildInput::Mesh<Vertex>& mesh) {
   hasher.add(std::as_bytes(mesh.uvs));
   hasher.add(std::as_bytes(mesh.values));
   hasher.add(std::as_bytes(std::span(&mesh.value_kind, 1)));
-  BuildIdentity identity;
-  identity.input_bytes = mesh.vertices.size_bytes() + mesh.triangles.size_bytes();
-  identity.input_number = sizeof(Vertex);
+  InputIdentity identity;
+  identity.bytes = mesh.vertices.size_bytes() + mesh.triangles.size_bytes();
+  identity.number = sizeof(Vertex);
   identity.sample_low = hasher.value().low;
   identity.sample_high = hasher.value().high;
   return identity;
 }
 
 struct IdentityOf {
-  Result<BuildIdentity> operator()(const std::filesystem::path& path) const {
-    return identity_of(path, calls);
+  using Identities = std::vector<InputIdentity>;
+
+  Result<Identities> operator()(const std::filesystem::path& path) const {
+    const auto identity = identity_of(path, calls);
+    return identity ? Result<Identities>({*identity}) : identity.error();
   }
-  Result<BuildIdentity> operator()(const BuildInput::Stream&) const {
+  Result<Identities> operator()(const BuildInput::Files& files) const {
+    if (files.paths.empty())
+      return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
+                        "an empty list of mesh files; give at least one");
+    Identities all;
+    for (const std::filesystem::path& path : files.paths) {
+      const auto identity = identity_of(path, calls);
+      if (!identity && failed_at != nullptr) *failed_at = path;
+      if (!identity) return identity.error();
+      all.push_back(*identity);
+    }
+    return all;
+  }
+  Result<Identities> operator()(const BuildInput::Stream&) const {
     return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
                       "triangles of a callback cannot be compared with those of an earlier build; "
                       "build without resume, or from a file");
   }
   template <class Vertex>
-  Result<BuildIdentity> operator()(const BuildInput::Mesh<Vertex>& mesh) const {
-    return identity_of(mesh);
+  Result<Identities> operator()(const BuildInput::Mesh<Vertex>& mesh) const {
+    return Identities{identity_of(mesh)};
   }
   storage::FileCalls& calls;
+  std::filesystem::path* failed_at;
 };
+
+// Says in words how the files of an input differ from those of an earlier one.
+std::string change_of(const std::vector<InputIdentity>& now,
+                      const std::vector<InputIdentity>& earlier) {
+  if (now.size() != earlier.size()) return "the number of input files has changed";
+  if (now.size() == 1) return "the input has changed";
+  const auto differing = std::ranges::mismatch(now, earlier).in1 - now.begin();
+  return "input file " + std::to_string(differing + 1) + " of " + std::to_string(now.size()) +
+         " has changed";
+}
 
 }  // namespace
 
@@ -139,11 +166,12 @@ std::string work_version() {
 }
 
 Result<BuildIdentity> BuildIdentity::of(const BuildInput& input, const BuildOptions& options,
-                                        const BuildSeams& seams) {
-  auto found = std::visit(IdentityOf{seams.calls}, input.content());
-  if (!found) return found;
-  BuildIdentity& identity = *found;
+                                        const BuildSeams& seams, std::filesystem::path* failed_at) {
+  auto found = std::visit(IdentityOf{seams.calls, failed_at}, input.content());
+  if (!found) return found.error();
+  BuildIdentity identity;
   identity.version = work_version();
+  identity.inputs = *std::move(found);
   identity.page_bytes = options.page_bytes;
   identity.with_sides = options.has_side_layer();
   identity.attributes = options.kept_attributes();
@@ -156,18 +184,19 @@ Result<BuildIdentity> BuildIdentity::of(const BuildInput& input, const BuildOpti
     const auto& [lower, upper] = *options.box;
     identity.box = {lower.x, lower.y, lower.z, upper.x, upper.y, upper.z};
   }
-  return found;
+  return identity;
 }
 
-const char* BuildIdentity::change_since(const BuildIdentity& earlier) const {
-  if (*this == earlier) return nullptr;
+std::uint64_t BuildIdentity::input_bytes() const {
+  return std::accumulate(
+      inputs.begin(), inputs.end(), std::uint64_t{0},
+      [](std::uint64_t sum, const InputIdentity& input) { return sum + input.bytes; });
+}
+
+std::string BuildIdentity::change_since(const BuildIdentity& earlier) const {
+  if (*this == earlier) return {};
   if (version != earlier.version) return "another version wrote it";
-  const auto input = [](const BuildIdentity& i) {
-    return std::tie(i.input_bytes, i.input_number, i.changed_seconds, i.changed_nanoseconds,
-                    i.sample_low, i.sample_high);
-  };
-  if (input(*this) != input(earlier)) return "the input has changed";
-  return "the options have changed";
+  return inputs == earlier.inputs ? "the options have changed" : change_of(inputs, earlier.inputs);
 }
 
 }  // namespace planetree::octree

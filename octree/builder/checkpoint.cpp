@@ -64,7 +64,7 @@ bool Checkpoint::restore_identity(const BuildIdentity& identity,
   BuildIdentity earlier;
   if (!read_record(payload, earlier)) earlier = {};
   refusal_ = identity.change_since(earlier);
-  identified_ = refusal_ == nullptr;
+  identified_ = refusal_.empty();
   return identified_;
 }
 
@@ -119,8 +119,8 @@ std::string Checkpoint::start() const {
   if (mesh_ && !surface_) return "resuming after ordering";
   if (mesh_ && chunks_.empty()) return "resuming after matching edges";
   if (mesh_) return "resuming after " + std::to_string(chunks_.size()) + " parts of the tree";
-  if (refusal_ == nullptr) return "no checkpoint; building from the start";
-  return std::string("the checkpoint cannot be resumed: ") + refusal_ + "; building from the start";
+  if (refusal_.empty()) return "no checkpoint; building from the start";
+  return "the checkpoint cannot be resumed: " + refusal_ + "; building from the start";
 }
 
 std::optional<ChunkWork> Checkpoint::take_chunk(std::uint32_t number) {

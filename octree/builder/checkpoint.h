@@ -82,7 +82,7 @@ class Checkpoint {
   storage::Journal journal_;
   std::optional<storage::SpillFile> spill_;
   bool identified_ = false;
-  const char* refusal_ = nullptr;  // why earlier work is not resumed
+  std::string refusal_;  // why earlier work is not resumed
   std::optional<OrderedMesh> mesh_;
   std::optional<SurfaceWork> surface_;
   std::map<std::uint32_t, ChunkWork> chunks_;

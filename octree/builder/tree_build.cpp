@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "octree/builder/build_identity.h"
+#include "octree/builder/job/input_paths.h"
 #include "octree/builder/job/phase_count.h"
 #include "octree/builder/mesh/mesh_format.h"
 #include "octree/builder/sort/each_chunk.h"
@@ -17,8 +18,7 @@ namespace planetree::octree {
 
 Result<BuildReport> TreeBuild::run() {
   if (const auto resumed = resume_work(); !resumed) return resumed.error();
-  const auto size = MeshSize::estimate(input_, seams_.calls, {options_.float64});
-  if (const auto enough = check_space(size); !enough) return enough.error();
+  if (const auto enough = estimate_size(); !enough) return enough.error();
   if (const auto ordered = order_triangles(); !ordered) return ordered.error();
   if (const auto looked = look_at_surface(); !looked) return looked.error();
   if (const auto cut = cut_out_part(); !cut) return cut.error();
@@ -29,13 +29,18 @@ Result<BuildReport> TreeBuild::run() {
 void TreeBuild::report_failure() const {
   const auto [directory, path] =
       files_.failed_at().value_or(writing_ ? std::pair(BuildDirectory::kOutput, output_)
-                                           : std::pair(BuildDirectory::kInput, input_path()));
+                                           : std::pair(BuildDirectory::kInput, failed_input()));
   progress_.failed_at(directory, path);
+}
+
+std::filesystem::path TreeBuild::failed_input() const {
+  if (!files_.mesh().file().empty()) return files_.mesh().file();
+  return failed_input_.empty() ? path_of(input_) : failed_input_;
 }
 
 Result<void> TreeBuild::resume_work() {
   if (!options_.resume) return {};
-  const auto identity = BuildIdentity::of(input_, options_, seams_);
+  const auto identity = BuildIdentity::of(input_, options_, seams_, &failed_input_);
   if (!identity) return identity.error();
   if (const auto told = progress_.progress(BuildPhase::kResuming, 0, 1); !told) return told;
   const auto resumed = files_.resume_work(*identity);
@@ -44,12 +49,30 @@ Result<void> TreeBuild::resume_work() {
 }
 
 // Checks the space before a day of work rather than after it.
-Result<void> TreeBuild::check_space(const Result<MeshSize>& size) {
+Result<void> TreeBuild::estimate_size() {
+  const auto size = MeshSize::estimate(input_, seams_.calls, {options_.float64}, &failed_input_);
+  return size ? check_space(*size) : size.error();
+}
+
+// Adds the content of a compressed file to what is known of the others.
+Result<void> TreeBuild::estimate_unpacked(const MeshFile& content) {
+  const auto size =
+      MeshSize::estimate(content, unpacked_path(files_.mesh().file()), {options_.float64});
   if (!size) return size.error();
-  size_ = *size;
+  MeshSize sum = size_;
+  sum.unpacked_bytes = 0;  // of contents that are there already, or are checked when they are read
+  sum.add(*size);
+  return check_space(sum);
+}
+
+// What the files before one that was unpacked have taken does not count again.
+Result<void> TreeBuild::check_space(const MeshSize& size) {
+  size_ = size;
   size_.attributes = options_.kept_attributes();
   if (files_.work() && files_.work()->mesh()) return {};  // its triangles are counted
-  return files_.check_space(SpaceNeed::before_reading(size_, memory_, options_.box.has_value()));
+  SpaceNeed need = SpaceNeed::before_reading(size_, memory_, options_.box.has_value());
+  need.temporary_bytes -= std::min(need.temporary_bytes, files_.scratch().disk_bytes());
+  return files_.check_space(need);
 }
 
 Result<void> TreeBuild::order_triangles() {
@@ -78,10 +101,8 @@ Result<void> TreeBuild::read() {
         size_, memory_, files_.scratch().disk_bytes(), options_.box.has_value()));
   });
   files_.mesh().before_unpacking([this](auto bytes) { return files_.check_space({bytes, 0}); });
-  files_.mesh().after_unpacking([this](const MeshFile& content) {
-    return check_space(
-        MeshSize::estimate(content, unpacked_path(input_path()), {options_.float64}));
-  });
+  files_.mesh().after_unpacking(
+      [this](const MeshFile& content) { return estimate_unpacked(content); });
   auto mesh = read_unordered(input_, options_, files_.mesh(), progress_, spool, files_.triangles());
   if (!mesh) return mesh.error();
   if (const auto set = set_mesh(*mesh, 0, false); !set) return set;

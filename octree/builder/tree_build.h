@@ -53,9 +53,11 @@ class TreeBuild {
   void report_failure() const;
 
  private:
-  std::filesystem::path input_path() const { return path_of(input_); }
+  std::filesystem::path failed_input() const;
   Result<void> resume_work();
-  Result<void> check_space(const Result<MeshSize>& size);
+  Result<void> estimate_size();
+  Result<void> estimate_unpacked(const MeshFile& content);
+  Result<void> check_space(const MeshSize& size);
   Result<void> order_triangles();
   Result<void> read();
   Result<void> resume_mesh();
@@ -91,6 +93,7 @@ class TreeBuild {
   BuildProgress& progress_;
   const BuildSeams& seams_;
   bool writing_ = false;
+  std::filesystem::path failed_input_;  // of several, the one that could not be examined
   BuildFiles files_;
   MeshSize size_;
   BuiltModel model_;

@@ -85,7 +85,7 @@ void fields(Record& record, Value& attributes) {
 template <class Record, IsA<OrderedMesh> Value>
 void fields(Record& record, Value& mesh) {
   record(mesh.frame, mesh.vertex_records, mesh.wide_ids, mesh.runs, mesh.notes, mesh.attributes,
-         mesh.value_kind);
+         mesh.value_kind, mesh.file_indices);
 }
 
 template <class Record, IsA<UnbalancedEdge> Value>

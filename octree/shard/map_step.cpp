@@ -11,14 +11,23 @@
 namespace planetree::octree {
 namespace {
 
+/// Triangle indices from `first` to before `end`.
+struct IndexRange {
+  std::uint64_t first, end;
+};
+
 /// Passes the triangles of a range of indices on.
 class SliceSink final : public TriangleSink {
  public:
-  SliceSink(std::uint64_t first, std::uint64_t end, TriangleSink& next, BuildProgress& progress)
-      : first_(first), end_(end), next_(next), progress_(progress) {}
+  /// indices  of the model.
+  /// offset   index in the model of the first triangle that this receives.
+  SliceSink(const IndexRange& indices, std::uint64_t offset, TriangleSink& next,
+            BuildProgress& progress)
+      : indices_(indices), offset_(offset), next_(next), progress_(progress) {}
 
-  Result<void> triangle(std::uint64_t index, const std::array<Vec3, 3>& corners) override {
-    if (index < first_ || index >= end_) return {};
+  Result<void> triangle(std::uint64_t index_in_files, const std::array<Vec3, 3>& corners) override {
+    const std::uint64_t index = offset_ + index_in_files;
+    if (index < indices_.first || index >= indices_.end) return {};
     ++count_;
     return next_.triangle(index, corners);
   }
@@ -29,7 +38,8 @@ class SliceSink final : public TriangleSink {
   std::uint64_t count() const { return count_; }
 
  private:
-  const std::uint64_t first_, end_;
+  const IndexRange indices_;
+  const std::uint64_t offset_;
   TriangleSink& next_;
   BuildProgress& progress_;
   std::uint64_t count_ = 0;
@@ -79,28 +89,31 @@ class MapStep {
     if (scratch_.failed() || mesh_.failed())
       progress_.failed_at(BuildDirectory::kTemporary, directory_);
     else
-      progress_.failed_at(BuildDirectory::kInput, plan_.plan.input);
+      progress_.failed_at(BuildDirectory::kInput,
+                          mesh_.file().empty() ? failed_input_ : mesh_.file());
     return error;
   }
 
-  // Checks before and after the reading that the input is the one that was planned.
+  // Reads the files that have triangles of the part. Checks before and after the reading that they
+  // are those that were planned. Returns the number of triangles.
   Result<std::uint64_t> read_checked() {
-    const auto before = check_input(plan_.plan, options_, seams_);
+    const ShardPlan& plan = plan_.plan;
+    const IndexRange part{first_of_part(shard_, plan.index_count(), plan.shards),
+                          first_of_part(shard_ + 1, plan.index_count(), plan.shards)};
+    const MeshFileRange files = plan.files_with(part.first, part.end);
+    if (files.count == 0) return std::uint64_t{0};
+    const auto before = check_files(plan, files, options_, seams_, failed_input_);
     if (!before) return before.error();
-    const auto triangles = read();
+    const auto triangles = read(files, part);
     if (!triangles) return triangles;
-    const auto unchanged = check_unchanged(plan_.plan, *before, options_, seams_);
+    const auto unchanged = check_unchanged(plan, files, *before, options_, seams_, failed_input_);
     return unchanged ? triangles : unchanged.error();
   }
 
-  // Returns the number of triangles.
-  Result<std::uint64_t> read() {
-    const std::uint64_t count = plan_.plan.index_count();
-    const std::uint32_t shards = plan_.plan.shards;
-    SliceSink slice(first_of_part(shard_, count, shards), first_of_part(shard_ + 1, count, shards),
-                    spool_, progress_);
-    const BuildInput input{std::filesystem::path(plan_.plan.input)};
-    const auto read = read_mesh(input, slice, mesh_, {.float64 = options_.float64});
+  Result<std::uint64_t> read(const MeshFileRange& files, const IndexRange& part) {
+    SliceSink slice(part, files.first_index, spool_, progress_);
+    const auto read =
+        read_mesh(plan_.plan.input_of(files), slice, mesh_, {.float64 = options_.float64});
     if (!read) return read.error();
     if (const auto ended = spool_.finish_part(plan_.plan.mesh.frame); !ended) return ended.error();
     return slice.count();
@@ -144,6 +157,7 @@ class MapStep {
   MeshScratch mesh_;
   storage::SpillFile scratch_;
   TriangleSpool spool_;
+  std::filesystem::path failed_input_;  // set by checks of the files
 };
 
 }  // namespace

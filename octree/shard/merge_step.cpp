@@ -17,7 +17,7 @@ Result<BuildReport> merge_shards(ShardJob& job, const std::filesystem::path& out
   auto built = job.built(*plan, results.sorted);
   if (!built) return built.error();
   results.built = *std::move(built);
-  const BuildInput input{std::filesystem::path(plan->plan.input)};
+  const BuildInput input = plan->plan.input_of(plan->plan.all_files());
   return merge_tree(results, input, output, options, progress, seams);
 }
 

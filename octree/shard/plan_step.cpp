@@ -5,6 +5,7 @@
 
 #include "octree/builder/build_identity.h"
 #include "octree/builder/job/build_memory.h"
+#include "octree/builder/job/input_paths.h"
 #include "octree/builder/sort/frame_finder.h"
 #include "octree/builder/sort/frame_sink.h"
 #include "octree/builder/sort/triangles.h"
@@ -74,7 +75,7 @@ ShardPlanReport report_of(const PlanResult& found, bool was_done) {
   report.shards = plan.shards;
   report.triangles = plan.mesh.frame.triangle_count;
   report.skipped = plan.mesh.frame.skipped_count;
-  report.input_bytes = plan.identity.input_bytes;
+  report.input_bytes = plan.identity.input_bytes();
   report.plan_bytes = found.file->data_bytes();
   report.sorted_bytes = report.triangles * Triangles::record_bytes(plan.mesh.frame.float64);
   const MeshSize size{report.triangles, plan.mesh.vertex_records, plan.mesh.frame.float64};
@@ -86,11 +87,9 @@ ShardPlanReport report_of(const PlanResult& found, bool was_done) {
 /// Reads the mesh and stores the plan.
 class PlanStep {
  public:
-  PlanStep(const std::filesystem::path& path, const BuildOptions& options,
-           const BuildMemory& memory, const std::filesystem::path& plan_path,
-           BuildProgress& progress, const BuildSeams& seams)
-      : path_(path),
-        input_(path),
+  PlanStep(const BuildInput& input, const BuildOptions& options, const BuildMemory& memory,
+           const std::filesystem::path& plan_path, BuildProgress& progress, const BuildSeams& seams)
+      : input_(input),
         options_(options),
         directory_(options.spill_directory(plan_path)),
         scratch_(memory.reading_bytes, directory_, seams.calls),
@@ -104,7 +103,7 @@ class PlanStep {
       const bool temporary = scratch_.failed();
       if (!kept.failed())
         progress_.failed_at(temporary ? BuildDirectory::kTemporary : BuildDirectory::kInput,
-                            temporary ? directory_ : path_);
+                            temporary ? directory_ : failed_input());
       return read_all;
     }
     RecordWriter record;
@@ -119,19 +118,27 @@ class PlanStep {
     auto mesh = read_unordered(input_, options_, scratch_, progress_, frame, kept);
     if (!mesh) return mesh.error();
     plan.mesh = *std::move(mesh);
-    const auto content = content_of(path_, seams_.calls);
-    if (!content) return content.error();
-    plan.content = *content;
-    return check_unchanged(plan, plan.identity, options_, seams_);
+    for (const std::filesystem::path& path : paths_of(input_)) {
+      const auto content = content_of(path, seams_.calls);
+      if (!content) failed_input_ = path;
+      if (!content) return content.error();
+      plan.contents.push_back(*content);
+    }
+    return check_unchanged(plan, plan.all_files(), plan.identity.inputs, options_, seams_,
+                           failed_input_);
+  }
+  std::filesystem::path failed_input() const {
+    if (!scratch_.file().empty()) return scratch_.file();
+    return failed_input_.empty() ? path_of(input_) : failed_input_;
   }
 
-  const std::filesystem::path& path_;
-  const BuildInput input_;
+  const BuildInput& input_;
   const BuildOptions& options_;
   const std::filesystem::path directory_;
   MeshScratch scratch_;
   BuildProgress& progress_;
   const BuildSeams& seams_;
+  std::filesystem::path failed_input_;  // set by what follows the reading
 };
 
 }  // namespace
@@ -148,14 +155,15 @@ Result<BuildMemory> memory_of_step(const BuildOptions& options, const BuildSeams
                       : BuildMemory::share(options.memory_bytes, options.threads);
 }
 
-Result<ShardPlanReport> plan_shards(const std::filesystem::path& input, ShardJob& job,
-                                    std::uint32_t shards, const BuildOptions& options,
-                                    BuildProgress& progress, const BuildSeams& seams) {
+Result<ShardPlanReport> plan_shards(const BuildInput& input, ShardJob& job, std::uint32_t shards,
+                                    const BuildOptions& options, BuildProgress& progress,
+                                    const BuildSeams& seams) {
   const auto memory = memory_of_step(options, seams);
   if (!memory) return memory.error();
-  const auto identity = BuildIdentity::of(BuildInput(input), options, seams);
+  std::filesystem::path failed_at = path_of(input);
+  const auto identity = BuildIdentity::of(input, options, seams, &failed_at);
   if (!identity) {
-    progress.failed_at(BuildDirectory::kInput, input);
+    progress.failed_at(BuildDirectory::kInput, failed_at);
     return identity.error();
   }
   ShardPlan plan = ShardPlan::of(input, shards, *identity, options);

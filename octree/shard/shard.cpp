@@ -43,15 +43,20 @@ Result<void> check_plan(std::uint32_t shards, const octree::BuildOptions& option
 
 }  // namespace
 
-Result<ShardPlanReport> plan_shards(const fs::path& input, const fs::path& job,
+Result<ShardPlanReport> plan_shards(const std::vector<fs::path>& inputs, const fs::path& job,
                                     std::uint32_t shards, const BuildOptions& options) {
   return run_step(job, options, [&](auto& opened, const auto& inner, auto& observer, auto& seams) {
     using Outcome = Result<ShardPlanReport>;
     if (const auto checked = check_plan(shards, inner); !checked)
       return Outcome(observer.refuse({}, checked.error()));
-    auto report = octree::plan_shards(input, opened, shards, inner, observer, seams);
+    auto report = octree::plan_shards(BuildInput(inputs), opened, shards, inner, observer, seams);
     return report;
   });
+}
+
+Result<ShardPlanReport> plan_shards(const fs::path& input, const fs::path& job,
+                                    std::uint32_t shards, const BuildOptions& options) {
+  return plan_shards(std::vector<fs::path>{input}, job, shards, options);
 }
 
 Result<ShardReport> map_shard(const fs::path& job, std::uint32_t shard,

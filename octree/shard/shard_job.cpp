@@ -3,6 +3,7 @@
 #include <fcntl.h>
 
 #include <cerrno>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -25,10 +26,19 @@ Error damaged_record() {
                     "the record does not fit the file; remove the file and repeat the step");
 }
 
+// Whether there is one of everything for each file of the input.
+bool fits_files(const ShardPlan& plan) {
+  const std::size_t count = plan.inputs.size();
+  const auto& indices = plan.mesh.file_indices;
+  return count > 0 && plan.identity.inputs.size() == count && plan.contents.size() == count &&
+         indices.size() == count &&
+         std::accumulate(indices.begin(), indices.end(), std::uint64_t{0}) == plan.index_count();
+}
+
 bool fits(const ShardPlan& plan, std::uint64_t data_bytes) {
   SpillExtent extent(data_bytes);
-  return plan.shards > 0 && plan.mesh.frame.triangle_count > 0 && plan.mesh.runs.empty() &&
-         plan.mesh.value_kind <= ValueKind::kReal &&
+  return fits_files(plan) && plan.shards > 0 && plan.mesh.frame.triangle_count > 0 &&
+         plan.mesh.runs.empty() && plan.mesh.value_kind <= ValueKind::kReal &&
          extent.take(plan.mesh.attributes, plan.index_count());
 }
 

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <span>
+#include <utility>
 
+#include "octree/builder/job/input_paths.h"
 #include "octree/builder/mesh/side_files.h"
 #include "storage/system/file_error.h"
 #include "storage/system/file_handle.h"
@@ -55,11 +58,12 @@ void ShardPlan::impose_on(BuildOptions& options) const {
     options.metadata[metadata[i]] = metadata[i + 1];
 }
 
-ShardPlan ShardPlan::of(const std::filesystem::path& input, std::uint32_t shards,
+ShardPlan ShardPlan::of(const BuildInput& input, std::uint32_t shards,
                         const BuildIdentity& identity, const BuildOptions& options) {
   ShardPlan plan;
   plan.shards = shards;
-  plan.input = std::filesystem::absolute(input).lexically_normal().string();
+  for (const std::filesystem::path& path : paths_of(input))
+    plan.inputs.push_back(std::filesystem::absolute(path).lexically_normal().string());
   plan.identity = identity;
   plan.layers = options.layers;
   plan.keep = options.keep;
@@ -72,9 +76,28 @@ ShardPlan ShardPlan::of(const std::filesystem::path& input, std::uint32_t shards
 }
 
 bool ShardPlan::is_like(const ShardPlan& other) const {
-  return shards == other.shards && input == other.input && identity == other.identity &&
+  return shards == other.shards && inputs == other.inputs && identity == other.identity &&
          layers == other.layers && keep == other.keep && side == other.side &&
          metadata == other.metadata;
+}
+
+MeshFileRange ShardPlan::files_with(std::uint64_t first_index, std::uint64_t end_index) const {
+  MeshFileRange files;
+  std::uint64_t begin = 0;  // index with which a file begins
+  for (std::size_t i = 0; i < inputs.size() && begin < end_index; ++i) {
+    const std::uint64_t end = begin + mesh.file_indices[i];
+    if (first_index < end_index && first_index < end) {
+      if (files.count == 0) files = {i, 0, begin};
+      ++files.count;
+    }
+    begin = end;
+  }
+  return files;
+}
+
+BuildInput ShardPlan::input_of(const MeshFileRange& files) const {
+  const auto paths = std::span(inputs).subspan(files.first, files.count);
+  return BuildInput(std::vector<std::filesystem::path>(paths.begin(), paths.end()));
 }
 
 std::uint64_t first_of_part(std::uint64_t part, std::uint64_t count, std::uint64_t parts) {
@@ -92,23 +115,34 @@ Result<storage::Hash128> content_of(const std::filesystem::path& input, storage:
   return hasher.value();
 }
 
-Result<BuildIdentity> check_input(const ShardPlan& plan, const BuildOptions& options,
-                                  const BuildSeams& seams) {
-  const std::filesystem::path input = plan.input;
-  auto now = BuildIdentity::of(input, options, seams);
-  if (!now || *now == plan.identity) return now;
+Result<std::vector<InputIdentity>> check_files(const ShardPlan& plan, const MeshFileRange& files,
+                                               const BuildOptions& options, const BuildSeams& seams,
+                                               std::filesystem::path& failed_at) {
+  failed_at = plan.inputs[files.first];
+  auto now = BuildIdentity::of(plan.input_of(files), options, seams, &failed_at);
+  if (!now) return now.error();
   if (now->version != plan.identity.version) return changed("this release differs from the one");
-  if (now->input_bytes != plan.identity.input_bytes) return changed("the input has changed");
-  const auto content = content_of(input, seams.calls);
-  if (!content) return content.error();
-  return *content == plan.content ? now : changed("the input has changed");
+  for (std::size_t i = 0; i < files.count; ++i) {
+    const InputIdentity& planned = plan.identity.inputs[files.first + i];
+    if (now->inputs[i] == planned) continue;
+    failed_at = plan.inputs[files.first + i];
+    if (now->inputs[i].bytes != planned.bytes) return changed("the input has changed");
+    const auto content = content_of(failed_at, seams.calls);
+    if (!content) return content.error();
+    if (*content != plan.contents[files.first + i]) return changed("the input has changed");
+  }
+  return std::move(now->inputs);
 }
 
-Result<void> check_unchanged(const ShardPlan& plan, const BuildIdentity& before,
-                             const BuildOptions& options, const BuildSeams& seams) {
-  const auto after = BuildIdentity::of(std::filesystem::path(plan.input), options, seams);
+Result<void> check_unchanged(const ShardPlan& plan, const MeshFileRange& files,
+                             const std::vector<InputIdentity>& before, const BuildOptions& options,
+                             const BuildSeams& seams, std::filesystem::path& failed_at) {
+  failed_at = plan.inputs[files.first];
+  const auto after = BuildIdentity::of(plan.input_of(files), options, seams, &failed_at);
   if (!after) return after.error();
-  if (*after == before) return {};
+  const auto differing = std::ranges::mismatch(after->inputs, before).in1 - after->inputs.begin();
+  if (static_cast<std::size_t>(differing) == files.count) return {};
+  failed_at = plan.inputs[files.first + static_cast<std::size_t>(differing)];
   return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
                     "the input changed while it was read; plan again when it is complete");
 }

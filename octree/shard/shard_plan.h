@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -16,12 +17,19 @@
 
 namespace planetree::octree {
 
+/// Files of an input that follow each other.
+struct MeshFileRange {
+  std::size_t first = 0;
+  std::size_t count = 0;
+  std::uint64_t first_index = 0;  ///< triangle index with which the first of them begins
+};
+
 /// What all steps of a sharded build need to know.
 struct ShardPlan {
   std::uint32_t shards = 0;
-  std::string input;           ///< path, from the root
-  BuildIdentity identity;      ///< of the input, and options
-  storage::Hash128 content{};  ///< hash of all bytes of the input and of the files it names
+  std::vector<std::string> inputs;         ///< paths of the mesh files, from the root, in order
+  BuildIdentity identity;                  ///< of the files, and options
+  std::vector<storage::Hash128> contents;  ///< of each file, see content_of()
   std::uint32_t layers = 0;
   std::uint32_t keep = 0;
   std::optional<storage::SideRule> side;
@@ -32,10 +40,18 @@ struct ShardPlan {
   std::uint64_t index_count() const { return mesh.frame.triangle_count + mesh.frame.skipped_count; }
   /// Puts the options that the bytes of the output depend on in place of those in `options`.
   void impose_on(BuildOptions& options) const;
-  static ShardPlan of(const std::filesystem::path& input, std::uint32_t shards,
-                      const BuildIdentity& identity, const BuildOptions& options);
+  /// input  one or more files.
+  static ShardPlan of(const BuildInput& input, std::uint32_t shards, const BuildIdentity& identity,
+                      const BuildOptions& options);
   /// Whether a plan of these would be this one, unless the mesh is read in another way.
   bool is_like(const ShardPlan& other) const;
+
+  MeshFileRange all_files() const { return {0, inputs.size(), 0}; }
+  /// The files with the triangle indices from `first_index` to before `end_index`; none if there is
+  /// no index.
+  MeshFileRange files_with(std::uint64_t first_index, std::uint64_t end_index) const;
+  /// Files as an input, in which indices begin with 0.
+  BuildInput input_of(const MeshFileRange& files) const;
 };
 
 /// First of the things that belong to a part, where `count` things are divided among `parts`.
@@ -45,20 +61,31 @@ std::uint64_t first_of_part(std::uint64_t part, std::uint64_t count, std::uint64
 /// errors  those of opening and reading them.
 Result<storage::Hash128> content_of(const std::filesystem::path& input, storage::FileCalls& calls);
 
-/// Checks that the input is the one that was planned. Where it looks like another file, as a copy
-/// on another machine does, all of it is hashed. Returns what it looks like now.
-/// errors  kBadInput: it has changed; those of content_of().
-Result<BuildIdentity> check_input(const ShardPlan& plan, const BuildOptions& options,
-                                  const BuildSeams& seams);
-/// Checks that the input still looks as before it was read.
-/// errors  kBadInput: it does not; those of BuildIdentity::of().
-Result<void> check_unchanged(const ShardPlan& plan, const BuildIdentity& before,
-                             const BuildOptions& options, const BuildSeams& seams);
+/// Checks that files are those that were planned. Where one looks like another file, as a copy on
+/// another machine does, all of it is hashed. Returns what they look like now.
+///
+/// failed_at  set to the file that an error concerns.
+/// errors     kBadInput: it has changed; those of content_of().
+Result<std::vector<InputIdentity>> check_files(const ShardPlan& plan, const MeshFileRange& files,
+                                               const BuildOptions& options, const BuildSeams& seams,
+                                               std::filesystem::path& failed_at);
+/// Checks that files still look as before they were read.
+///
+/// failed_at  set to the file that an error concerns.
+/// errors     kBadInput: it does not; those of BuildIdentity::of().
+Result<void> check_unchanged(const ShardPlan& plan, const MeshFileRange& files,
+                             const std::vector<InputIdentity>& before, const BuildOptions& options,
+                             const BuildSeams& seams, std::filesystem::path& failed_at);
+
+template <class Record, IsA<storage::Hash128> Value>
+void fields(Record& record, Value& hash) {
+  record(hash.low, hash.high);
+}
 
 template <class Record, IsA<ShardPlan> Value>
 void fields(Record& record, Value& plan) {
-  record(plan.shards, plan.input, plan.identity, plan.content.low, plan.content.high, plan.layers,
-         plan.keep, plan.side, plan.metadata, plan.mesh);
+  record(plan.shards, plan.inputs, plan.identity, plan.contents, plan.layers, plan.keep, plan.side,
+         plan.metadata, plan.mesh);
 }
 
 }  // namespace planetree::octree

@@ -18,9 +18,10 @@
 /// threads  one step at a time on a ShardJob; each uses oneTBB on options.threads threads.
 namespace planetree::octree {
 
-Result<ShardPlanReport> plan_shards(const std::filesystem::path& input, ShardJob& job,
-                                    std::uint32_t shards, const BuildOptions& options,
-                                    BuildProgress& progress, const BuildSeams& seams = {});
+/// input  one or more files.
+Result<ShardPlanReport> plan_shards(const BuildInput& input, ShardJob& job, std::uint32_t shards,
+                                    const BuildOptions& options, BuildProgress& progress,
+                                    const BuildSeams& seams = {});
 
 Result<ShardReport> map_shard(ShardJob& job, std::uint32_t shard, BuildOptions options,
                               BuildProgress& progress, const BuildSeams& seams = {});

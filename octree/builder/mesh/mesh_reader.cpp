@@ -10,6 +10,7 @@
 #include "octree/builder/mesh/obj/obj_reader.h"
 #include "octree/builder/mesh/off_reader.h"
 #include "octree/builder/mesh/ply_reader.h"
+#include "octree/builder/mesh/sequence/mesh_sequence.h"
 #include "octree/builder/mesh/stl_reader.h"
 #include "octree/builder/mesh/stream/attribute_names.h"
 #include "octree/builder/mesh/stream/mesh_file.h"
@@ -101,9 +102,49 @@ Result<MeshSummary> read_file(const std::filesystem::path& path, TriangleSink& s
   }
 }
 
+// Also finds, before any of them is read, that a file is missing.
+Result<std::vector<std::uint64_t>> lengths_of(const std::vector<std::filesystem::path>& paths,
+                                              MeshScratch& scratch) {
+  std::vector<std::uint64_t> lengths;
+  for (const std::filesystem::path& path : paths) {
+    scratch.begin_file(path);
+    const Result<MeshFile> file = MeshFile::open(path, scratch.calls());
+    if (!file) return file.error();
+    lengths.push_back(file->size_bytes());
+  }
+  return lengths;
+}
+
+Result<MeshSummary> read_files(const std::vector<std::filesystem::path>& paths, TriangleSink& sink,
+                               MeshScratch& scratch, const MeshOptions& options) {
+  auto lengths = lengths_of(paths, scratch);
+  if (!lengths) return lengths.error();
+  MeshSequence sequence(*std::move(lengths), sink);
+  for (const std::filesystem::path& path : paths) {
+    scratch.begin_file(path);
+    sequence.begin_file(path);
+    const Result<MeshSummary> summary = read_file(path, sequence, scratch, options);
+    if (!summary) return summary;
+    if (const auto ended = sequence.end_file(*summary, options.keep); !ended) return ended.error();
+  }
+  scratch.end_file();
+  return sequence.summary();
+}
+
 struct Reader {
   Result<MeshSummary> operator()(const std::filesystem::path& path) const {
-    return read_file(path, sink, scratch, options);
+    scratch.begin_file(path);
+    Result<MeshSummary> summary = read_file(path, sink, scratch, options);
+    if (!summary) return summary;
+    summary->file_indices = {summary->triangle_indices};
+    scratch.end_file();
+    return summary;
+  }
+  Result<MeshSummary> operator()(const BuildInput::Files& files) const {
+    if (files.paths.empty())
+      return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
+                        "an empty list of mesh files; give at least one");
+    return read_files(files.paths, sink, scratch, options);
   }
   Result<MeshSummary> operator()(const BuildInput::Stream& stream) const {
     if (const auto refused = refuse_attributes("a callback", options.keep); !refused)

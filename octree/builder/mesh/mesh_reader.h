@@ -37,6 +37,7 @@ struct MeshOptions {
 /// an OBJ, for an OFF without a keyword, and for an STL with a wrong size. A file that is
 /// compressed by gzip or zstd is unpacked into a temporary file first (packing.h). The content is
 /// then read under the path without .gz or .zst. Places in messages are those of the content.
+/// Several files are read one after the other, as one mesh (mesh_sequence.h).
 ///
 /// input    a file is a regular file. Its size is taken once, when it is opened. A file that
 /// becomes shorter
@@ -46,11 +47,11 @@ struct MeshOptions {
 ///          stay in the file, or are spilled where the file is a text, and are read again where
 ///          faces refer to them. Where the faces refer to vertices in no order, their corners are
 ///          sorted on disk (FaceVertexJoin). Only the longest face of a text is in memory as a
-///          whole.
+///          whole. After an error, MeshScratch::file() is the file that it concerns.
 /// errors   kNotFound, kPermission, kReadFailed, kNoMemory, kBadInput (structural damage, an
 ///          unsupported layout, a line of more than 32 MiB, or no usable triangle; offset is set
-///          where a byte is at fault), those of temporary files, and those of the sink. The sink
-///          may have received a part of the mesh by then.
+///          where a byte is at fault), kBadArgument (an empty list of files), those of temporary
+///          files, and those of the sink. The sink may have received a part of the mesh by then.
 /// threads  one call per sink; calls on different sinks are independent.
 Result<MeshSummary> read_mesh(const BuildInput& input, TriangleSink& sink, MeshScratch& scratch,
                               const MeshOptions& options = {});

@@ -214,6 +214,16 @@ struct SizeOf {
   Result<MeshSize> operator()(const std::filesystem::path& path) const {
     return size_of_file(path, calls, options);
   }
+  Result<MeshSize> operator()(const BuildInput::Files& files) const {
+    MeshSize sum;
+    for (const std::filesystem::path& path : files.paths) {
+      const Result<MeshSize> size = size_of_file(path, calls, options);
+      if (!size && failed_at != nullptr) *failed_at = path;
+      if (!size) return size;
+      sum.add(*size);
+    }
+    return sum;
+  }
   Result<MeshSize> operator()(const BuildInput::Stream& stream) const {
     return size_of_stream(stream);
   }
@@ -223,9 +233,18 @@ struct SizeOf {
   }
   storage::FileCalls& calls;
   const MeshOptions& options;
+  std::filesystem::path* failed_at;
 };
 
 }  // namespace
+
+void MeshSize::add(const MeshSize& next) {
+  triangles += next.triangles;
+  vertices += next.vertices;
+  float64 = float64 || next.float64;
+  is_indexed_text = is_indexed_text || next.is_indexed_text;
+  unpacked_bytes = std::max(unpacked_bytes, next.unpacked_bytes);
+}
 
 Result<MeshSize> MeshSize::estimate(const MeshFile& file, const std::filesystem::path& path,
                                     const MeshOptions& options) {
@@ -251,8 +270,8 @@ Result<MeshSize> MeshSize::estimate(const MeshFile& file, const std::filesystem:
 }
 
 Result<MeshSize> MeshSize::estimate(const BuildInput& input, storage::FileCalls& calls,
-                                    const MeshOptions& options) {
-  return std::visit(SizeOf{calls, options}, input.content());
+                                    const MeshOptions& options, std::filesystem::path* failed_at) {
+  return std::visit(SizeOf{calls, options, failed_at}, input.content());
 }
 
 }  // namespace planetree::octree

@@ -23,6 +23,10 @@ struct MeshSize {
   std::uint64_t unpacked_bytes = 0;
   std::uint32_t attributes = 0;  ///< that the file is to keep; estimate() does not set it
 
+  /// Adds the size of a mesh that is read after this one, and whose content is unpacked after that
+  /// of this one is removed.
+  void add(const MeshSize& next);
+
   /// Estimates the size of a file from its header and its length, or from samples of a text that
   /// declares nothing. A mesh in memory and a callback say their size.
   ///
@@ -30,11 +34,14 @@ struct MeshSize {
   ///         with polygons of more than four corners, and a file that its reader will refuse. An
   ///         STL does not state its vertices: half as many as triangles are assumed, as a closed
   ///         surface has, unless triangles have no corners in common. A callback may say
-  ///         nothing, which gives zero.
-  /// errors  those of opening the file and reading it.
+  ///         nothing, which gives zero. Several files give the sum, but of `unpacked_bytes` the
+  ///         maximum, since only one at a time is unpacked.
+  /// errors  those of opening the file and reading it. If the input is several files, `failed_at`
+  ///         is set to the one that the error concerns, unless it is null.
   static Result<MeshSize> estimate(const BuildInput& input,
                                    storage::FileCalls& calls = storage::FileCalls::real(),
-                                   const MeshOptions& options = {});
+                                   const MeshOptions& options = {},
+                                   std::filesystem::path* failed_at = nullptr);
   /// Estimates the size of a file that is open and not compressed.
   ///
   /// path  decides the format if the content does not.

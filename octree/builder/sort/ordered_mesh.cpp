@@ -1,9 +1,12 @@
 #include "octree/builder/sort/ordered_mesh.h"
 
 #include <cassert>
+#include <filesystem>
 #include <limits>
+#include <span>
 #include <utility>
 
+#include "octree/builder/job/input_paths.h"
 #include "octree/builder/mesh/mesh_reader.h"
 #include "octree/geometry/strict_math.h"
 
@@ -26,6 +29,24 @@ Result<MeshSummary> read(const BuildInput& input, const BuildOptions& options, M
   return summary;
 }
 
+// The file with the triangle index, which exists.
+const std::filesystem::path& file_of(std::uint64_t index, const MeshSummary& summary,
+                                     std::span<const std::filesystem::path> paths) {
+  std::size_t number = 0;
+  for (std::uint64_t end = summary.file_indices[0]; end <= index;)
+    end += summary.file_indices[++number];
+  return paths[number];
+}
+
+Error refuse_skipped(const ModelFrame& frame, const MeshSummary& summary, const BuildInput& input,
+                     MeshScratch& scratch) {
+  if (const auto paths = paths_of(input); !paths.empty())
+    scratch.begin_file(file_of(frame.first_skipped, summary, paths));
+  return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
+                    "%s; repair the mesh or build without --strict",
+                    frame.first_skipped_text.c_str());
+}
+
 }  // namespace
 
 Result<OrderedMesh> read_unordered(const BuildInput& input, const BuildOptions& options,
@@ -38,16 +59,20 @@ Result<OrderedMesh> read_unordered(const BuildInput& input, const BuildOptions& 
   auto frame = sink.finish();
   if (!frame) return frame.error();
   if (options.strict && frame->skipped_count > 0)
-    return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
-                      "%s; repair the mesh or build without --strict",
-                      frame->first_skipped_text.c_str());
+    return refuse_skipped(*frame, *summary, input, scratch);
   frame->nonplanar_count = summary->odd_polygons.nonplanar;
   frame->first_nonplanar_text = summary->odd_polygons.first_nonplanar;
   frame->fanned_count = summary->odd_polygons.fanned;
   frame->first_fanned_text = summary->odd_polygons.first_fanned;
   const bool wide_ids = summary->triangle_indices > std::numeric_limits<std::uint32_t>::max();
-  return OrderedMesh{*std::move(frame), summary->vertex_records, wide_ids,           {},
-                     summary->notes,    std::move(attributes),   summary->value_kind};
+  return OrderedMesh{.frame = *std::move(frame),
+                     .vertex_records = summary->vertex_records,
+                     .wide_ids = wide_ids,
+                     .runs = {},
+                     .notes = summary->notes,
+                     .attributes = std::move(attributes),
+                     .value_kind = summary->value_kind,
+                     .file_indices = summary->file_indices};
 }
 
 }  // namespace planetree::octree

@@ -25,11 +25,14 @@ struct OrderedMesh {
   std::vector<std::string> notes;               ///< as MeshSummary::notes
   SpooledAttributes attributes;                 ///< of all indices, if any are kept beside links
   ValueKind value_kind = ValueKind::kUnsigned;  ///< as MeshSummary::value_kind
+  std::vector<std::uint64_t> file_indices;      ///< as MeshSummary::file_indices
 };
 
 /// Reads a mesh without sorting it.
 ///
-/// scratch  as for read_mesh().
+/// scratch  as for read_mesh(). After an error, MeshScratch::file() is the file that it concerns,
+/// if
+///          there is one.
 /// sink     receives the triangles.
 /// kept     receives the attributes that options.keep names.
 /// return   everything but the runs.

@@ -23,8 +23,9 @@ namespace planetree::octree {
 class SmallChunks : public testing::Test {
  protected:
   // Writes a binary STL, whose corners are floats.
-  void write(const Soup& soup) {
-    std::ofstream file(mesh_, std::ios::binary);
+  void write(const Soup& soup) const { write(soup, mesh_); }
+  static void write(const Soup& soup, const std::filesystem::path& path) {
+    std::ofstream file(path, std::ios::binary);
     const auto put = [&file](const auto& value) {
       file.write(reinterpret_cast<const char*>(&value), sizeof value);
     };
@@ -66,11 +67,13 @@ class SmallChunks : public testing::Test {
       for (const Vec3& corner : triangle) put(numbers.at(key(corner)));
     }
   }
+  BuildInput input() const { return parts_.empty() ? BuildInput(mesh_) : BuildInput(parts_); }
   storage::Bytes built() const { return storage::read_bytes(output_); }
 
   storage::TemporaryDirectory folder_;
   storage::TemporaryDirectory meshes_;
   std::filesystem::path mesh_ = meshes_ / "model.stl";
+  std::vector<std::filesystem::path> parts_;  // the input in place of mesh_, if there are any
   std::filesystem::path output_ = folder_ / "model.ptree";
 };
 

@@ -56,7 +56,7 @@ class ResumedBuild : public SmallChunks {
   }
   Result<BuildReport> build(storage::FileCalls& calls, const BuildMemory& memory = kTight) {
     recorder_ = {};
-    return build_tree(mesh_, output_, options_, recorder_, {40, 60, memory, calls});
+    return build_tree(input(), output_, options_, recorder_, {40, 60, memory, calls});
   }
   // The bytes that a build without interruption writes.
   storage::Bytes whole() {

@@ -25,7 +25,7 @@ class ShardedBuild : public SmallChunks {
   // The bytes that a build in one process writes.
   storage::Bytes whole() {
     recorder_ = {};
-    const auto report = build_tree(mesh_, output_, options_, recorder_, seams(idle_));
+    const auto report = build_tree(input(), output_, options_, recorder_, seams(idle_));
     EXPECT_TRUE(report) << report.error().text;
     storage::Bytes bytes = built();
     std::filesystem::remove(output_);
@@ -36,7 +36,7 @@ class ShardedBuild : public SmallChunks {
     recorder_ = {};
     const BuildSeams with = seams(calls);
     ShardJob job(job_, with);
-    return plan_shards(mesh_, job, shards, options_, recorder_, with);
+    return plan_shards(input(), job, shards, options_, recorder_, with);
   }
   Result<ShardReport> map(std::uint32_t shard) { return map(shard, idle_); }
   Result<ShardReport> map(std::uint32_t shard, storage::FileCalls& calls) {

@@ -67,6 +67,13 @@ class MeshScratch {
     return after_unpacking_ ? after_unpacking_(content) : Result<void>();
   }
 
+  /// Notes which file is read from now on, or that its reading is complete. After an error, file()
+  /// is the file that the error concerns.
+  void begin_file(const std::filesystem::path& path) { file_ = path; }
+  void end_file() { file_.clear(); }
+  /// The file that is being read; empty if none is.
+  [[nodiscard]] const std::filesystem::path& file() const { return file_; }
+
   /// Bytes that closed temporary files had on disk, together.
   [[nodiscard]] std::uint64_t disk_bytes() const { return disk_bytes_; }
   /// Whether one of the closed temporary files failed.
@@ -82,6 +89,7 @@ class MeshScratch {
   std::function<Result<void>()> before_sorting_;
   std::function<Result<void>(std::uint64_t bytes)> before_unpacking_;
   std::function<Result<void>(const MeshFile&)> after_unpacking_;
+  std::filesystem::path file_;
   std::uint64_t disk_bytes_ = 0;
   bool failed_ = false;
 };

@@ -48,7 +48,7 @@ std::string SkippedRecord::text() const {
   }
   char line[192] = {};
   std::snprintf(line, sizeof line, "%s: %s", record_name(kind, record).c_str(), cause);
-  return line;
+  return file == nullptr ? line : *file + ": " + line;
 }
 
 }  // namespace planetree::octree

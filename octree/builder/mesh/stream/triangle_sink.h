@@ -37,8 +37,10 @@ struct SkippedRecord {
   /// 1), the corner of an STL or a callback from 0, or the number of corners.
   std::int64_t value = 0;
   std::uint64_t vertex_count = 0;  ///< vertices of the mesh, for kIndexOutOfRange
+  /// Path of the file of the record, where the input is several files; else null.
+  const std::string* file = nullptr;
 
-  /// One line, such as "face 17: vertex 5 is not finite".
+  /// One line, such as "face 17: vertex 5 is not finite"; before it the path of the file, if set.
   [[nodiscard]] std::string text() const;
 };
 
@@ -99,6 +101,8 @@ struct MeshSummary {
   ValueKind value_kind = ValueKind::kUnsigned;  ///< type of TriangleAttributes::value
   /// What the reader passed over or took in another way than it is written, a line for each kind.
   std::vector<std::string> notes = {};
+  /// Of files, the indices that each has given out, in order.
+  std::vector<std::uint64_t> file_indices = {};
 };
 
 }  // namespace planetree::octree
