@@ -71,6 +71,24 @@ TEST_F(BuildErrors, FilesOfTheInput) {
   EXPECT_FALSE(std::filesystem::exists(output()));
 }
 
+TEST_F(BuildErrors, OneOfSeveralFilesOfTheInput) {
+  const auto good = folder_ / "good.ply", bad = folder_ / "bad.ply";
+  write_ply<float>(good, mesh_);
+  const BuildInput both(std::vector<std::filesystem::path>{good, bad});
+  expect_error(both, output(), ErrorCode::kNotFound, bad);
+  std::ofstream(bad) << "ply\nformat ascii 1.0\nend_header\n";
+  expect_error(both, output(), ErrorCode::kBadInput, bad);
+  options_.replace = true;
+  expect_error(both, bad, ErrorCode::kBadArgument, bad);
+  // Of no one of them in particular.
+  write_stl(bad, mesh_);
+  options_.box = {{50, 50, 50}, {60, 60, 60}};
+  expect_error(both, output(), ErrorCode::kBadArgument, {});
+  expect_error(BuildInput(std::vector<std::filesystem::path>()), output(), ErrorCode::kBadArgument,
+               {});
+  EXPECT_FALSE(std::filesystem::exists(output()));
+}
+
 TEST_F(BuildErrors, MeshesWithoutATriangle) {
   mesh_.triangles.clear();
   expect_error(ErrorCode::kBadInput);

@@ -1,7 +1,11 @@
 // The file depends on the triangles and their order, not on how they are given.
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "tests/public_api/meshes.h"
 
@@ -20,6 +24,33 @@ TEST_F(BuildInputForms, AMeshInMemoryGivesTheBytesOfItsFile) {
   const std::string of_file = built(folder_ / "mesh.ply");
   ASSERT_FALSE(of_file.empty());
   EXPECT_EQ(built(mesh_.input()), of_file);
+}
+
+TEST_F(BuildInputForms, SeveralFilesGiveTheBytesOfTheJoinedOne) {
+  write_stl(folder_ / "mesh.stl", mesh_);
+  const std::string of_file = built(folder_ / "mesh.stl");
+  ASSERT_FALSE(of_file.empty());
+  std::vector<std::filesystem::path> parts;
+  for (std::size_t from = 0; from < mesh_.triangles.size(); from += 900) {
+    const std::size_t to = std::min(from + 900, mesh_.triangles.size());
+    const Mesh part{mesh_.vertices,
+                    {mesh_.triangles.begin() + static_cast<std::ptrdiff_t>(from),
+                     mesh_.triangles.begin() + static_cast<std::ptrdiff_t>(to)}};
+    parts.push_back(folder_ / ("part-" + std::to_string(parts.size()) + ".stl"));
+    write_stl(parts.back(), part);
+  }
+  ASSERT_EQ(parts.size(), 3u);
+  EXPECT_EQ(built(BuildInput(parts)), of_file);
+  EXPECT_EQ(built(BuildInput(std::vector{folder_ / "mesh.stl"})), of_file);
+
+  // By the steps of a job.
+  const auto job = folder_ / "job";
+  ASSERT_TRUE(plan_shards(parts, job, 2, small_options()));
+  for (std::uint32_t shard = 0; shard < 2; ++shard) ASSERT_TRUE(map_shard(job, shard));
+  for (std::uint32_t shard = 0; shard < 2; ++shard) ASSERT_TRUE(reduce_shard(job, shard));
+  ASSERT_TRUE(merge_shards(job, output(), small_options()));
+  EXPECT_EQ(bytes_of(output()), of_file);
+  EXPECT_TRUE(plan_shards(folder_ / "mesh.stl", job, 2, small_options()));
 }
 
 TEST_F(BuildInputForms, FloatsGiveTheBytesOfDoublesOfTheSameValues) {
