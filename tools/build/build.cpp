@@ -12,8 +12,9 @@ namespace planetree::tools {
 
 int run_build(const BuildArguments& arguments, Console& console) {
   BuildMeter meter(arguments.output, arguments.quiet, arguments.json, console);
-  const auto report = build(arguments.input, arguments.output, meter.observed(arguments.options));
-  return report_build(report, meter, {arguments.input, arguments.output}, arguments.json, console);
+  const auto report =
+      build(BuildInput(arguments.inputs), arguments.output, meter.observed(arguments.options));
+  return report_build(report, meter, {arguments.inputs, arguments.output}, arguments.json, console);
 }
 
 void add_build(CLI::App& app, Console& console, std::function<int()>& action) {
@@ -25,9 +26,10 @@ void add_build(CLI::App& app, Console& console, std::function<int()>& action) {
   BuildArguments& arguments = options->arguments;
   SubcommandOptions subcommand(app, "build", "Build the .ptree file of a mesh");
   subcommand.require(
-      subcommand.path("input", "IN", arguments.input,
-                      "Mesh to read: PLY, STL or OFF (ascii or binary), glTF or GLB, "
-                      "or OBJ, as it is or compressed by gzip or zstd"));
+      subcommand.paths("input", "IN...", arguments.inputs,
+                       "Mesh to read: PLY, STL or OFF (ascii or binary), glTF or GLB, "
+                       "or OBJ, as it is or compressed by gzip or zstd. Several files, of any of "
+                       "these formats, are one mesh: their triangles follow each other"));
   subcommand.require(subcommand.path("-o,--output", "OUT.ptree", arguments.output,
                                      "File to write; it appears only when it is complete"));
   add_resources(subcommand, arguments.options, options->texts);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <vector>
 
 #include "planetree/build.h"
 #include "tools/cli/subcommand.h"
@@ -15,7 +16,7 @@ namespace planetree::tools {
 
 /// Arguments of `planetree build`.
 struct BuildArguments {
-  std::filesystem::path input;
+  std::vector<std::filesystem::path> inputs;  ///< mesh files, which are one mesh together
   std::filesystem::path output;
   BuildOptions options;
   bool json = false;

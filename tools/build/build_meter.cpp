@@ -21,28 +21,25 @@ std::string key_of(BuildPhase phase) {
   return key;
 }
 
-void warn_of_skipped(const std::filesystem::path& mesh, const BuildReport& report,
-                     Console& console) {
+void warn_of_skipped(const std::string& mesh, const BuildReport& report, Console& console) {
   if (report.skipped == 0) return;
-  console.warn(mesh.string(),
-               fmt::format("{} triangle{} of bad records skipped, the first: {}; repair the "
-                           "mesh, or use --strict to refuse it",
-                           grouped_count(report.skipped), report.skipped == 1 ? "" : "s",
-                           report.first_skipped_text));
+  console.warn(mesh, fmt::format("{} triangle{} of bad records skipped, the first: {}; repair the "
+                                 "mesh, or use --strict to refuse it",
+                                 grouped_count(report.skipped), report.skipped == 1 ? "" : "s",
+                                 report.first_skipped_text));
 }
 
-void warn_of_odd_polygons(const std::filesystem::path& mesh, const BuildReport& report,
-                          Console& console) {
+void warn_of_odd_polygons(const std::string& mesh, const BuildReport& report, Console& console) {
   const auto polygons = [](std::uint64_t count) {
     return fmt::format("{} polygon{}", grouped_count(count), count == 1 ? "" : "s");
   };
   if (report.nonplanar_polygons > 0)
-    console.warn(mesh.string(),
+    console.warn(mesh,
                  fmt::format("{} neither convex nor flat split as seen along an axis, the first: "
                              "{}; split them before the export to choose their triangles",
                              polygons(report.nonplanar_polygons), report.first_nonplanar_text));
   if (report.fanned_polygons > 0)
-    console.warn(mesh.string(),
+    console.warn(mesh,
                  fmt::format("{} split into fans that may reach beyond them, the first: {}; split "
                              "them before the export",
                              polygons(report.fanned_polygons), report.first_fanned_text));
@@ -90,8 +87,18 @@ void BuildMeter::note_seconds() {
   started_ = now;
 }
 
-void warn_of_mesh(const std::filesystem::path& mesh, const BuildReport& report, Console& console) {
-  for (const std::string& note : report.notes) console.warn(mesh.string(), note);
+std::string mesh_name(const std::vector<std::filesystem::path>& files) {
+  return files.size() == 1 ? files.front().string() : fmt::format("{} meshes", files.size());
+}
+
+std::string name_of_failure(const BuildMeter& meter,
+                            const std::vector<std::filesystem::path>& inputs) {
+  const bool is_of_all = meter.failed_at().empty() && inputs.size() > 1;
+  return is_of_all ? mesh_name(inputs) : meter.failed_at().string();
+}
+
+void warn_of_mesh(const std::string& mesh, const BuildReport& report, Console& console) {
+  for (const std::string& note : report.notes) console.warn(mesh, note);
   warn_of_skipped(mesh, report, console);
   warn_of_odd_polygons(mesh, report, console);
 }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "planetree/build.h"
 #include "tools/cli/progress.h"
@@ -48,7 +49,14 @@ class BuildMeter {
   std::uint64_t done_ = 0;
 };
 
+/// The name of a mesh in messages: the path of its file, or "3 meshes" for several.
+std::string mesh_name(const std::vector<std::filesystem::path>& files);
+/// What an error concerns, for messages: a path, or several meshes as a whole.
+std::string name_of_failure(const BuildMeter& meter,
+                            const std::vector<std::filesystem::path>& inputs);
+
 /// Warns of what a build reports of its mesh: notes, skipped records, odd polygons.
-void warn_of_mesh(const std::filesystem::path& mesh, const BuildReport& report, Console& console);
+/// mesh  as mesh_name().
+void warn_of_mesh(const std::string& mesh, const BuildReport& report, Console& console);
 
 }  // namespace planetree::tools

@@ -17,7 +17,7 @@ namespace {
 
 /// A build that has ended.
 struct BuildRecord {
-  const std::filesystem::path& input;
+  const std::vector<std::filesystem::path>& inputs;
   const std::filesystem::path& output;
   const BuildReport& built;
   double seconds = 0;                              ///< of the whole build, above 0
@@ -28,10 +28,16 @@ double bytes_per_triangle(const BuildReport& built) {
   return static_cast<double>(built.file_bytes) / static_cast<double>(built.triangles);
 }
 
+std::vector<std::string> names_of(const std::vector<std::filesystem::path>& paths) {
+  std::vector<std::string> names;
+  for (const std::filesystem::path& path : paths) names.push_back(path.string());
+  return names;
+}
+
 std::string json_report(const BuildRecord& record, const std::string& sha256) {
   const BuildReport& built = record.built;
   nlohmann::ordered_json report = {
-      {"input", record.input.string()},
+      {"input", nullptr},
       {"file", record.output.string()},
       {"triangles", built.triangles},
       {"input_triangles", built.input_triangles},
@@ -62,6 +68,10 @@ std::string json_report(const BuildRecord& record, const std::string& sha256) {
       {"temporary_bytes", built.temporary_bytes},
       {"sha256", sha256},
       {"content_id", content_id_text(built.content_id)}};
+  if (record.inputs.size() == 1)
+    report["input"] = record.inputs.front().string();
+  else
+    report["input"] = names_of(record.inputs);
   if (built.first_skipped != kNoTriangle) report["first_skipped"] = built.first_skipped;
   return json_line(report);
 }
@@ -91,10 +101,10 @@ std::string plain_report(const BuildRecord& record) {
 int report_build(const Result<BuildReport>& built, BuildMeter& meter, const BuildFiles& files,
                  bool json, Console& console) {
   meter.finish();
-  if (!built) return console.fail(meter.failed_at().string(), built.error());
+  if (!built) return console.fail(name_of_failure(meter, files.inputs), built.error());
   const double seconds = meter.seconds();
-  warn_of_mesh(files.input, *built, console);
-  const BuildRecord record{files.input, files.output, *built, seconds, meter.seconds_by_phase()};
+  warn_of_mesh(mesh_name(files.inputs), *built, console);
+  const BuildRecord record{files.inputs, files.output, *built, seconds, meter.seconds_by_phase()};
   if (!json) {
     console.print(plain_report(record));
     return console.finish(kDone);

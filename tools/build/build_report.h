@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "planetree/build.h"
 #include "planetree/error.h"
@@ -11,7 +12,7 @@ namespace planetree::tools {
 
 /// What a build reads and writes.
 struct BuildFiles {
-  const std::filesystem::path& input;  ///< the mesh, or the job
+  const std::vector<std::filesystem::path>& inputs;  ///< the files of the mesh, or the job
   const std::filesystem::path& output;
 };
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "planetree/build.h"
 #include "tools/cli/subcommand.h"
@@ -17,11 +18,12 @@ namespace planetree::tools {
 
 /// Arguments of `planetree shard`.
 struct ShardArguments {
-  std::string step;                    ///< plan, map, reduce or merge
-  std::filesystem::path path;          ///< the mesh of plan; the job of the other steps
-  std::filesystem::path output;        ///< the job of plan; the file of merge
-  std::uint64_t shards = 0;            ///< of plan
-  std::optional<std::uint32_t> shard;  ///< of map and reduce
+  std::string step;                           ///< plan, map, reduce or merge
+  std::vector<std::filesystem::path> meshes;  ///< of plan
+  std::filesystem::path job;                  ///< of the other steps
+  std::filesystem::path output;               ///< the job of plan; the file of merge
+  std::uint64_t shards = 0;                   ///< of plan
+  std::optional<std::uint32_t> shard;         ///< of map and reduce
   BuildOptions options;
   bool json = false;
   bool quiet = false;

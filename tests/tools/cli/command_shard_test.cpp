@@ -67,9 +67,11 @@ TEST_F(CommandShard, TellsWhatAPlanTakes) {
 TEST_F(CommandShard, RefusesArgumentsOfOtherSteps) {
   expect_refused(shard({"plan", "mesh.obj", "--shards", "2"}), "plan needs -o JOB");
   expect_refused(shard({"plan", "mesh.obj", "-o", "job"}), "plan needs --shards N");
-  expect_refused(plan({"0"}), "plan takes no number of a shard");
   expect_refused(plan({"--force"}), "--force is for merge");
   expect_refused(shard({"map", "job"}), "map needs the number of a shard");
+  expect_refused(shard({"map", "job", "0", "1"}), "map takes one job and the number of one shard");
+  expect_refused(shard({"map", "job", "first"}), "is not a count");
+  expect_refused(shard({"reduce", "job", "16384"}), "16384 is too large for a shard");
   expect_refused(shard({"map", "job", "0", "-o", "x"}), "leave out -o");
   expect_refused(shard({"map", "job", "0", "--shards", "2"}), "--shards is for plan");
   expect_refused(shard({"reduce", "job", "0", "--keep", "color"}), "decided by plan");

@@ -110,7 +110,7 @@ TEST(ManPages, AreRightRoff) {
   EXPECT_EQ(pages, 1 + static_cast<int>(command_summary().subcommands.size()));
   const std::string build =
       output_of("groff -man -Tascii -P-cbou " + (kManual / "planetree-build.1").string());
-  EXPECT_NE(build.find("planetree build [options] IN --output OUT.ptree"), std::string::npos);
+  EXPECT_NE(build.find("planetree build [options] IN... --output OUT.ptree"), std::string::npos);
   EXPECT_NE(build.find("--temp-dir DIR"), std::string::npos);
 }
 
