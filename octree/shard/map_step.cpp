@@ -100,7 +100,7 @@ class MapStep {
     const ShardPlan& plan = plan_.plan;
     const IndexRange part{first_of_part(shard_, plan.index_count(), plan.shards),
                           first_of_part(shard_ + 1, plan.index_count(), plan.shards)};
-    const FileRange files = plan.files_with(part.first, part.end);
+    const MeshFileRange files = plan.files_with(part.first, part.end);
     if (files.count == 0) return std::uint64_t{0};
     const auto before = check_files(plan, files, options_, seams_, failed_input_);
     if (!before) return before.error();
@@ -110,7 +110,7 @@ class MapStep {
     return unchanged ? triangles : unchanged.error();
   }
 
-  Result<std::uint64_t> read(const FileRange& files, const IndexRange& part) {
+  Result<std::uint64_t> read(const MeshFileRange& files, const IndexRange& part) {
     SliceSink slice(part, files.first_index, spool_, progress_);
     const auto read =
         read_mesh(plan_.plan.input_of(files), slice, mesh_, {.float64 = options_.float64});

@@ -81,8 +81,8 @@ bool ShardPlan::is_like(const ShardPlan& other) const {
          metadata == other.metadata;
 }
 
-FileRange ShardPlan::files_with(std::uint64_t first_index, std::uint64_t end_index) const {
-  FileRange files;
+MeshFileRange ShardPlan::files_with(std::uint64_t first_index, std::uint64_t end_index) const {
+  MeshFileRange files;
   std::uint64_t begin = 0;  // index with which a file begins
   for (std::size_t i = 0; i < inputs.size() && begin < end_index; ++i) {
     const std::uint64_t end = begin + mesh.file_indices[i];
@@ -95,7 +95,7 @@ FileRange ShardPlan::files_with(std::uint64_t first_index, std::uint64_t end_ind
   return files;
 }
 
-BuildInput ShardPlan::input_of(const FileRange& files) const {
+BuildInput ShardPlan::input_of(const MeshFileRange& files) const {
   const auto paths = std::span(inputs).subspan(files.first, files.count);
   return BuildInput(std::vector<std::filesystem::path>(paths.begin(), paths.end()));
 }
@@ -115,7 +115,7 @@ Result<storage::Hash128> content_of(const std::filesystem::path& input, storage:
   return hasher.value();
 }
 
-Result<std::vector<InputIdentity>> check_files(const ShardPlan& plan, const FileRange& files,
+Result<std::vector<InputIdentity>> check_files(const ShardPlan& plan, const MeshFileRange& files,
                                                const BuildOptions& options, const BuildSeams& seams,
                                                std::filesystem::path& failed_at) {
   failed_at = plan.inputs[files.first];
@@ -134,7 +134,7 @@ Result<std::vector<InputIdentity>> check_files(const ShardPlan& plan, const File
   return std::move(now->inputs);
 }
 
-Result<void> check_unchanged(const ShardPlan& plan, const FileRange& files,
+Result<void> check_unchanged(const ShardPlan& plan, const MeshFileRange& files,
                              const std::vector<InputIdentity>& before, const BuildOptions& options,
                              const BuildSeams& seams, std::filesystem::path& failed_at) {
   failed_at = plan.inputs[files.first];

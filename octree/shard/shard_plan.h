@@ -18,7 +18,7 @@
 namespace planetree::octree {
 
 /// Files of an input that follow each other.
-struct FileRange {
+struct MeshFileRange {
   std::size_t first = 0;
   std::size_t count = 0;
   std::uint64_t first_index = 0;  ///< triangle index with which the first of them begins
@@ -46,12 +46,12 @@ struct ShardPlan {
   /// Whether a plan of these would be this one, unless the mesh is read in another way.
   bool is_like(const ShardPlan& other) const;
 
-  FileRange all_files() const { return {0, inputs.size(), 0}; }
+  MeshFileRange all_files() const { return {0, inputs.size(), 0}; }
   /// The files with the triangle indices from `first_index` to before `end_index`; none if there is
   /// no index.
-  FileRange files_with(std::uint64_t first_index, std::uint64_t end_index) const;
+  MeshFileRange files_with(std::uint64_t first_index, std::uint64_t end_index) const;
   /// Files as an input, in which indices begin with 0.
-  BuildInput input_of(const FileRange& files) const;
+  BuildInput input_of(const MeshFileRange& files) const;
 };
 
 /// First of the things that belong to a part, where `count` things are divided among `parts`.
@@ -66,14 +66,14 @@ Result<storage::Hash128> content_of(const std::filesystem::path& input, storage:
 ///
 /// failed_at  set to the file that an error concerns.
 /// errors     kBadInput: it has changed; those of content_of().
-Result<std::vector<InputIdentity>> check_files(const ShardPlan& plan, const FileRange& files,
+Result<std::vector<InputIdentity>> check_files(const ShardPlan& plan, const MeshFileRange& files,
                                                const BuildOptions& options, const BuildSeams& seams,
                                                std::filesystem::path& failed_at);
 /// Checks that files still look as before they were read.
 ///
 /// failed_at  set to the file that an error concerns.
 /// errors     kBadInput: it does not; those of BuildIdentity::of().
-Result<void> check_unchanged(const ShardPlan& plan, const FileRange& files,
+Result<void> check_unchanged(const ShardPlan& plan, const MeshFileRange& files,
                              const std::vector<InputIdentity>& before, const BuildOptions& options,
                              const BuildSeams& seams, std::filesystem::path& failed_at);
 

@@ -3,8 +3,8 @@
 #include "tests/octree/builder/split_mesh.h"
 
 #include <gtest/gtest.h>
-#include <zlib.h>
 
+#include <cstdlib>
 #include <string>
 
 #include "tests/octree/builder/resumed_build.h"
@@ -65,11 +65,8 @@ TEST_F(SplitMesh, GivesTheBytesOfTheJoinedMeshInAnyFormats) {
   write_obj(soups[1], part(1, ".obj"));
   write_ply(soups[2], part(2, ".ply"));
   write_obj(soups[3], part(3, ".obj"));
-  const auto text = storage::read_bytes(part(3, ".obj"));
-  const gzFile packed = ::gzopen((part(3, ".obj").string() + ".gz").c_str(), "wb");
-  ASSERT_EQ(::gzwrite(packed, text.data(), static_cast<unsigned>(text.size())),
-            static_cast<int>(text.size()));
-  ::gzclose(packed);
+  const std::string packed = part(3, ".obj").string();
+  ASSERT_EQ(std::system(("gzip '" + packed + "'").c_str()), 0);
   parts_ = {part(0, ".stl"), part(1, ".obj"), part(2, ".ply"), part(3, ".obj.gz")};
   EXPECT_EQ(whole_bytes(), expected);
   for (const BuildMemory& memory : {kLarge, kBetween, kSortedOnDisk}) {
