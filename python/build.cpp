@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
@@ -120,9 +121,10 @@ BuildOptions options_of(const py::dict& given) {
   return options;
 }
 
-BuildReport build_file(const std::filesystem::path& mesh, const std::filesystem::path& output,
-                       const py::dict& options, const py::object& progress) {
-  const BuildInput input(mesh);
+BuildReport build_files(const std::vector<std::filesystem::path>& meshes,
+                        const std::filesystem::path& output, const py::dict& options,
+                        const py::object& progress) {
+  const BuildInput input(meshes);
   return RunningBuild(input, output, options_of(options)).wait(progress);
 }
 
@@ -186,7 +188,7 @@ void define_build(py::module_& module) {
       .def_readonly("file_bytes", &BuildReport::file_bytes)
       .def_readonly("temporary_bytes", &BuildReport::temporary_bytes)
       .def_readonly("peak_resident_bytes", &BuildReport::peak_resident_bytes);
-  module.def("build_file", &build_file);
+  module.def("build_files", &build_files);
   module.def("build_arrays", &build_arrays);
 }
 

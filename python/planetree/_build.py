@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Callable, Mapping, Optional, Sequence
+from typing import Any, Callable, List, Mapping, Optional, Sequence
 
 from . import _planetree
 from ._arrays import bytes_of
@@ -12,6 +12,15 @@ from ._enums import Attributes, Layers, SideRule
 from ._meshes import mesh_arrays
 
 _OF_ARRAYS = {"colors": Attributes.COLOR, "uvs": Attributes.UV, "values": Attributes.VALUE}
+
+
+def paths_of(mesh: Any) -> List[str]:
+    """The paths of a mesh of files; empty if it is none."""
+    if isinstance(mesh, (str, os.PathLike)):
+        return [os.fspath(mesh)]
+    if isinstance(mesh, (list, tuple)) and all(isinstance(at, (str, os.PathLike)) for at in mesh):
+        return [os.fspath(path) for path in mesh]
+    return []
 
 
 def build(
@@ -40,9 +49,10 @@ def build(
 ) -> _planetree.BuildReport:
     """Builds the .ptree file of a mesh, which may be larger than memory.
 
-    mesh       path of a mesh file, a pair (vertices (n, 3), faces (m, 3)) of arrays, or a mesh of
-               trimesh, Open3D, meshio or PyVista. C-contiguous vertices of float32 or float64 and
-               faces of int32 or uint32 are not copied. Files are those that `planetree build` reads
+    mesh       path of a mesh file, a list of paths of files that follow each other, a pair
+               (vertices (n, 3), faces (m, 3)) of arrays, or a mesh of trimesh, Open3D, meshio or
+               PyVista. C-contiguous vertices of float32 or float64 and faces of int32 or uint32 are
+               not copied. Files are those that `planetree build` reads
     out        the file to write
     memory     maximum memory of the build: bytes, or text such as "1G"; None: a quarter of the
                machine's. It spills what does not fit to temporary files in `temp_dir`
@@ -89,10 +99,11 @@ def build(
     if box is not None:
         options["box"] = [[float(at) for at in corner] for corner in box]
     attributes = array_attributes(colors, uvs, values)
-    if isinstance(mesh, (str, os.PathLike)):
+    paths = paths_of(mesh)
+    if paths:
         if attributes:
             raise ValueError("colors=, uvs= and values= belong to arrays; a file has its own: keep=")
-        return _planetree.build_file(os.fspath(mesh), os.fspath(out), options, progress)
+        return _planetree.build_files(paths, os.fspath(out), options, progress)
     vertices, faces = mesh_arrays(mesh)
     for name, flag in _OF_ARRAYS.items():
         if name in attributes:

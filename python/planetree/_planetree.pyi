@@ -113,7 +113,9 @@ class Model:
         self, indices: np.ndarray, outputs: Dict[str, np.ndarray], progress: Any
     ) -> None: ...
 
-def build_file(mesh: str, output: str, options: Dict[str, Any], progress: Any) -> BuildReport: ...
+def build_files(
+    meshes: List[str], output: str, options: Dict[str, Any], progress: Any
+) -> BuildReport: ...
 def build_arrays(
     vertices: np.ndarray,
     faces: np.ndarray,

@@ -30,6 +30,21 @@ class Builds(ModelTestCase):
         report = planetree.build(mesh, path, replace=True, **options)
         return path, report
 
+    def test_of_several_files_are_those_of_the_whole(self):
+        corners = np.random.default_rng(5).uniform(-1, 1, (60, 3, 3)).astype("<f4")
+
+        def write(name, some):
+            path = self.folder / name
+            rows = b"".join(b"\0" * 12 + c.tobytes() + b"\0\0" for c in some)
+            path.write_bytes(b"\0" * 80 + struct.pack("<I", len(some)) + rows)
+            return path
+
+        whole = self.build(write("whole.stl", corners))[0].read_bytes()
+        parts = [write("a.stl", corners[:20]), write("b.stl", corners[20:])]
+        path, report = self.build(parts)
+        self.assertEqual(report.triangles, 60)
+        self.assertTrue(path.read_bytes() == whole)
+
     def test_of_arrays_are_those_of_files(self):
         mesh = self.folder / "statue.ply"
         run_command("generate", mesh, "--triangles", 5000, "--force")
