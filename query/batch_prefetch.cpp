@@ -57,6 +57,7 @@ bool BatchPrefetch::load(std::span<const std::uint32_t> pages) noexcept {
   bool has_read = false;
   for (const std::uint32_t page : pages) {
     const ProbeState::Loaded loaded = probe_.load_page(page);
+    if (loaded == ProbeState::Loaded::kResident) ++loaded_pages_;
     has_read = has_read || loaded == ProbeState::Loaded::kResident;
     is_late_ = loaded == ProbeState::Loaded::kLate;
     if (is_late_) return false;
@@ -93,6 +94,19 @@ bool BatchPrefetch::run_round(std::size_t first, std::size_t end) noexcept {
   std::sort(pages.begin(), pages.end());
   probe_.model().remote_file->prefetch_within(pages, probe_.wait_left());
   return load(pages);
+}
+
+// Gets pages of a query of a fetch thread, many at once. Returns how many.
+[[gnu::noinline]] std::uint32_t ProbeState::fetch_ahead(const Vec3& query,
+                                                        const QueryOptions& options,
+                                                        FetchReason reason) noexcept {
+  const BatchOrder order;
+  QueryOptions wanted = options;
+  // The side of a probe that moves along the surface takes no pages of the mask.
+  if (reason == FetchReason::kMotion && wanted.parts != kSide) wanted.parts &= ~kSide;
+  BatchPrefetch prefetch(*this, {&query, 1}, order, wanted);
+  prefetch.run_rounds(0, 1);
+  return prefetch.loaded_pages();
 }
 
 // Returns the terms of a query that waits, for a remote model.

@@ -43,6 +43,8 @@ class BatchPrefetch {
 
   /// Whether a page did not come in time.
   bool is_late() const noexcept { return is_late_; }
+  /// Number of pages that were made resident.
+  std::uint32_t loaded_pages() const noexcept { return loaded_pages_; }
 
  private:
   static constexpr unsigned kMaxRounds = 6;
@@ -65,6 +67,7 @@ class BatchPrefetch {
   const BatchOrder& order_;
   QueryOptions options_;
   bool is_late_ = false;
+  std::uint32_t loaded_pages_ = 0;
 };
 
 }  // namespace planetree::query

@@ -127,13 +127,14 @@ std::uint32_t ProbeState::fetch_pages(const Vec3& query, const QueryOptions& opt
       (is_prefetch && model_.cache.frame_count() < kMinFramesToPrefetch &&
        !model_.cache.holds_all_pages()))
     return 0;
+  const std::uint32_t ahead = model_.remote_file ? fetch_ahead(query, options, reason) : 0;
   coherence_.is_on = coherence_.follows_motion = reason == FetchReason::kMotion;
   RunningQuery running(*this,
                        is_prefetch ? PageAccess::Query::kPrefetch : PageAccess::Query::kFetch,
                        options.wait, &stop);
   ClosestPoint unused = unanswered(Status::kExact);
   query::closest_point(running.context(), query, options, unused);
-  return running.fetched();
+  return ahead + running.fetched();
 }
 
 bool ProbeState::fetch_page(std::uint32_t page, const std::atomic<bool>& stop) noexcept {

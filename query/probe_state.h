@@ -97,6 +97,8 @@ class ProbeState {
   /// Says whether queries that wait get pages from a server by themselves, many at once. A batch
   /// does it for them.
   void set_looks_ahead(bool looks_ahead) noexcept { looks_ahead_ = looks_ahead; }
+  /// Makes it the probe of a fetch thread, which reads its pages itself.
+  void set_fetcher() noexcept { is_fetcher_ = true; }
   /// See FetchProbe::fetch_pages.
   std::uint32_t fetch_pages(const Vec3& query, const QueryOptions& options, FetchReason reason,
                             const std::atomic<bool>& stop) noexcept;
@@ -159,8 +161,11 @@ class ProbeState {
   void note_degraded(double width, bool missed) noexcept;
   ClosestPoint find_remote_closest_point(const Vec3& query, const QueryOptions& options) noexcept;
   bool look_ahead(const Vec3& query, const QueryOptions& options) noexcept;
+  std::uint32_t fetch_ahead(const Vec3& query, const QueryOptions& options,
+                            FetchReason reason) noexcept;
   cache::FetchTerms remote_terms() const noexcept;
   cache::FetchTerms terms_of(Wait wait) const noexcept {
+    if (is_fetcher_) return model_.fetcher_terms;
     const bool is_remote_wait = model_.remote_file && wait == Wait::kForPages;
     return is_remote_wait ? remote_terms() : model_.query_terms;
   }
@@ -180,6 +185,7 @@ class ProbeState {
   std::uint64_t work_spent_ = 0;                 // units of all queries
   std::uint64_t side_searches_ = 0;              // closest-point queries that searched for the side
   bool looks_ahead_ = true;
+  bool is_fetcher_ = false;                // it is the probe of a fetch thread
   TimePoint deadline_ = TimePoint::max();  // see WaitLimit
   Coherence coherence_;
 };
@@ -260,7 +266,9 @@ inline Containment ProbeState::contains_fast(const Vec3& query,
 class QueryingFetchProbe final : public FetchProbe {
  public:
   QueryingFetchProbe(const ServingModel& model, cache::Reader reader)
-      : probe_(ProbeState::create(model, std::move(reader))) {}
+      : probe_(ProbeState::create(model, std::move(reader))) {
+    probe_->set_fetcher();
+  }
 
   std::uint32_t fetch_pages(const Vec3& query, const QueryOptions& options, FetchReason reason,
                             const std::atomic<bool>& stop) noexcept override {

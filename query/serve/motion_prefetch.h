@@ -28,7 +28,7 @@ class MotionPrefetch {
   /// Number of positions ahead of a motion.
   static constexpr unsigned kPositions = 4;
   /// Limits of the horizon.
-  static constexpr Seconds kMinHorizon{0.005}, kMaxHorizon{0.2};
+  static constexpr Seconds kMinHorizon{0.005}, kMaxHorizon{0.6};
   /// A motion more than this many times as fast as the one before it is left out.
   static constexpr double kMaxSpeedUp = 4;
   /// Number of motions after a search for a side in which prefetches search for sides.

@@ -89,6 +89,18 @@ TEST_F(RemoteModelOfParts, ANearQueryTakesFewRequests) {
   EXPECT_LE(server_.requests(), opened + 2);
 }
 
+// A fresh model for each point. The file has two levels of pages below its first one.
+TEST_F(RemoteModelOfParts, OpeningAndANearQueryTakeFewRoundTrips) {
+  for (std::size_t i = 0; i < 10; ++i) {
+    const Model model = open();
+    Probe probe = make_probe(model);
+    const std::uint64_t opened = model.stats().http_rounds;
+    EXPECT_LE(opened, 2u);
+    EXPECT_EQ(probe.closest_point(queries_[i]).status, Status::kExact);
+    EXPECT_LE(model.stats().http_rounds, opened + 2) << i;
+  }
+}
+
 TEST_F(RemoteModelOfParts, ABatchSharesRequests) {
   queries_ = random_queries(1000, -1, 1);
   const Model model = open();
