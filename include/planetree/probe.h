@@ -178,7 +178,7 @@ class PLANETREE_API Probe {
                  const QueryOptions& options = {}) noexcept;
 
   /// Reports where the device is and how fast it moves. From this a fetch thread predicts four
-  /// positions in the next 5 to 200 ms and reads the pages that queries there need. Each call
+  /// positions in the next 5 to 600 ms and reads the pages that queries there need. Each call
   /// replaces the motion before. Call it with every query, since a motion is used once.
   ///
   /// The call is a hint: it changes which pages are in memory, and answers in no other way. It

@@ -35,7 +35,7 @@ TEST(MotionPrefetch, HasPositionsAtQuartersOfTheHorizon) {
 }
 
 TEST(MotionPrefetch, HorizonCoversTwoFetchesWithinItsLimits) {
-  for (const auto& [fetch, horizon] : {std::pair(0.001, 0.005), {0.02, 0.04}, {5.0, 0.2}}) {
+  for (const auto& [fetch, horizon] : {std::pair(0.001, 0.005), {0.02, 0.04}, {5.0, 0.6}}) {
     MotionPrefetch prefetch;
     prefetch.take(moving(0, 1), Seconds(0));
     EXPECT_NEAR(ahead_of(prefetch, 0, Seconds(fetch)).back(), horizon, 1e-9);

@@ -60,18 +60,5 @@ TEST_F(SilentServer, ABatchEndsAtTheWaitLimits) {
   is_silent = false;
 }
 
-// Each wait is shorter than the limit, but the query needs several pages.
-TEST_F(SilentServer, TheLimitIsOfAllWaitsTogether) {
-  options_.wait_limit_ms = 10'000;
-  const Model model = open();
-  Probe probe = make_probe(model);
-  const unsigned opened = server_.requests();
-  server_.set_rule([opened](const RangeServer::Request& request, RangeServer::Reply& reply) {
-    reply.delay_ms = request.number == opened ? 0 : 20;
-  });
-  expect_local_answers(probe);
-  EXPECT_EQ(model.stats().waits_given_up, 0u);
-}
-
 }  // namespace
 }  // namespace planetree::query
