@@ -21,7 +21,7 @@ void BatchPrefetch::run(std::size_t first, std::size_t end) noexcept {
 
 void BatchPrefetch::run_rounds(std::size_t first, std::size_t end) noexcept {
   for (unsigned round = 0; round < kMaxRounds && !is_late_; ++round)
-    if (!run_round(first, end)) return;
+    if ((stop_ && stop_->load(std::memory_order_relaxed)) || !run_round(first, end)) return;
 }
 
 // Returns how many pages the queries lack, each counted once, and which, as far as there is room.
@@ -99,12 +99,13 @@ bool BatchPrefetch::run_round(std::size_t first, std::size_t end) noexcept {
 // Gets pages of a query of a fetch thread, many at once. Returns how many.
 [[gnu::noinline]] std::uint32_t ProbeState::fetch_ahead(const Vec3& query,
                                                         const QueryOptions& options,
-                                                        FetchReason reason) noexcept {
+                                                        FetchReason reason,
+                                                        const std::atomic<bool>& stop) noexcept {
   const BatchOrder order;
   QueryOptions wanted = options;
   // The side of a probe that moves along the surface takes no pages of the mask.
   if (reason == FetchReason::kMotion && wanted.parts != kSide) wanted.parts &= ~kSide;
-  BatchPrefetch prefetch(*this, {&query, 1}, order, wanted);
+  BatchPrefetch prefetch(*this, {&query, 1}, order, wanted, &stop);
   prefetch.run_rounds(0, 1);
   return prefetch.loaded_pages();
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -26,9 +27,10 @@ class BatchPrefetch {
 
   /// probe, queries, order  must outlive this
   /// options                of the batch; `wait` is ignored
+  /// stop                   ends it after a round when it becomes true; may be null
   BatchPrefetch(ProbeState& probe, std::span<const Vec3> queries, const BatchOrder& order,
-                const QueryOptions& options) noexcept
-      : probe_(probe), queries_(queries), order_(order), options_(options) {
+                const QueryOptions& options, const std::atomic<bool>* stop = nullptr) noexcept
+      : probe_(probe), queries_(queries), order_(order), options_(options), stop_(stop) {
     options_.wait = Wait::kNever;
   }
 
@@ -66,6 +68,7 @@ class BatchPrefetch {
   const std::span<const Vec3> queries_;
   const BatchOrder& order_;
   QueryOptions options_;
+  const std::atomic<bool>* const stop_;
   bool is_late_ = false;
   std::uint32_t loaded_pages_ = 0;
 };

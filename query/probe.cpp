@@ -127,7 +127,7 @@ std::uint32_t ProbeState::fetch_pages(const Vec3& query, const QueryOptions& opt
       (is_prefetch && model_.cache.frame_count() < kMinFramesToPrefetch &&
        !model_.cache.holds_all_pages()))
     return 0;
-  const std::uint32_t ahead = model_.remote_file ? fetch_ahead(query, options, reason) : 0;
+  const std::uint32_t ahead = model_.remote_file ? fetch_ahead(query, options, reason, stop) : 0;
   coherence_.is_on = coherence_.follows_motion = reason == FetchReason::kMotion;
   RunningQuery running(*this,
                        is_prefetch ? PageAccess::Query::kPrefetch : PageAccess::Query::kFetch,

@@ -161,8 +161,8 @@ class ProbeState {
   void note_degraded(double width, bool missed) noexcept;
   ClosestPoint find_remote_closest_point(const Vec3& query, const QueryOptions& options) noexcept;
   bool look_ahead(const Vec3& query, const QueryOptions& options) noexcept;
-  std::uint32_t fetch_ahead(const Vec3& query, const QueryOptions& options,
-                            FetchReason reason) noexcept;
+  std::uint32_t fetch_ahead(const Vec3& query, const QueryOptions& options, FetchReason reason,
+                            const std::atomic<bool>& stop) noexcept;
   cache::FetchTerms remote_terms() const noexcept;
   cache::FetchTerms terms_of(Wait wait) const noexcept {
     if (is_fetcher_) return model_.fetcher_terms;
