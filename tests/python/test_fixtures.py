@@ -20,7 +20,8 @@ SOURCE = pathlib.Path(os.environ["PLANETREE_SOURCE_DIR"]) / "format-spec"
 FOLDER = SOURCE / "fixtures"
 COMMAND = os.environ["PLANETREE_COMMAND"]
 SIDES = {"inside": 1, "on the surface": 1, "outside": 0, "unknown": 255}
-NO_FIXTURE = {"PAGE_READ"}  # it concerns the system and not the file
+# The first concerns the system and not the file, the second several files.
+NO_FIXTURE = {"PAGE_READ", "SET"}
 
 
 sys.path[:0] = [str(SOURCE), str(FOLDER)]
