@@ -18,6 +18,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 
@@ -143,14 +144,17 @@ void glide(const std::string& url, const Model& file, const Choices& choices) {
   }
   const double edge = choices.edge;
   std::size_t is_exact = 0, is_near = 0, wrong = 0;
+  std::vector<unsigned> far(choices.seconds);  // neither exact nor near, by second
   for (std::size_t tick = 0; tick < path.size(); ++tick) {
     const double truth = exact.closest_point(path[tick]).upper;
     const ClosestPoint& answer = answers[tick];
     wrong += truth < answer.lower * (1 - 1e-12) || truth > answer.upper * (1 + 1e-12);
     if (answer.status == Status::kExact)
       ++is_exact;
+    else if (answer.upper - truth <= edge && truth - answer.lower <= edge)
+      ++is_near;
     else
-      is_near += answer.upper - truth <= edge && truth - answer.lower <= edge;
+      ++far[tick / 1000];
   }
   const double all = static_cast<double>(path.size()) / 100;
   const Stats stats = model.stats();
@@ -161,6 +165,7 @@ void glide(const std::string& url, const Model& file, const Choices& choices) {
       path.size(), static_cast<double>(is_exact) / all, static_cast<double>(is_near) / all, edge,
       wrong, static_cast<double>(slowest.count()) / 1e6, stats.pages_prefetched,
       stats.pages_evicted, stats.http_requests, static_cast<double>(stats.http_bytes) / 0x1p20);
+  fmt::print("glide: other ticks by second: {}\n", fmt::join(far, " "));
 }
 
 int run(const Choices& choices) {
