@@ -137,12 +137,15 @@ std::uint64_t SetDescription::bytes() const noexcept {
 
 // A member has a line of its own, for people who read the set file.
 std::string SetDescription::text() const {
+  const auto line = [](const char* key, const std::string& value) {
+    return "\n " + Json(key).dump() + ": " + value;
+  };
   std::string list;
   for (const SetMember& member : members)
     list += (list.empty() ? "\n  " : ",\n  ") + json_of(member).dump();
-  return "{\n \"format\": " + Json(kFormat).dump() + ",\n \"version\": " + Json(kVersion).dump() +
-         ",\n \"content_id\": " + Json(hex(content_id)).dump() +
-         ",\n \"bytes\": " + Json(bytes()).dump() + ",\n \"members\": [" + list + "\n ]\n}\n";
+  return "{" + line("format", Json(kFormat).dump()) + "," + line("version", Json(kVersion).dump()) +
+         "," + line("content_id", Json(hex(content_id)).dump()) + "," +
+         line("bytes", Json(bytes()).dump()) + "," + line("members", "[" + list + "\n ]\n}\n");
 }
 
 Result<SetDescription> SetDescription::read(const ByteSource& file) {

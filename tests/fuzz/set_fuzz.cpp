@@ -7,8 +7,8 @@
 #include "storage/set/set_description.h"
 #include "tests/fuzz/expectation.h"
 
-/// Reads arbitrary bytes as a set file. What is accepted is written and read again, and leads from a
-/// server to that server only.
+/// Reads arbitrary bytes as a set file. What is accepted is written and read again, and leads from
+/// a server to that server only.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   using namespace planetree;
   using namespace planetree::storage;

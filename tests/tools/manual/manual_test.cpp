@@ -117,7 +117,7 @@ TEST(ManPages, AreRightRoff) {
 TEST(BashCompletion, CompletesSubcommandsOptionsAndValues) {
   if (!is_installed("bash")) GTEST_SKIP() << "bash is not installed";
   EXPECT_EQ(completed("planetree bui"), "build\n");
-  EXPECT_EQ(completed("planetree build --mem"), "--memory\n");
+  EXPECT_EQ(completed("planetree build --memo"), "--memory\n");
   EXPECT_EQ(completed("planetree generate out.ply --shape s"), "statue\nsphere\nsoup\n");
   EXPECT_EQ(completed("planetree generate --shape = c"), "cylinder\ncone\n");
   EXPECT_EQ(completed("planetree verify --mem"), "\n");
