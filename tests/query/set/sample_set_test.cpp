@@ -13,21 +13,21 @@
 namespace planetree::query {
 namespace {
 
-const std::filesystem::path kSamples = PLANETREE_SOURCE_DIR "/format-spec/set-v1/samples";
+const std::filesystem::path kSetSamples = PLANETREE_SOURCE_DIR "/format-spec/set-v1/samples";
 
 TEST(SampleSet, HasTheMembersThatItNames) {
   const auto set =
-      storage::SetDescription::parse(storage::read_bytes(kSamples / "sphere.ptreeset"));
+      storage::SetDescription::parse(storage::read_bytes(kSetSamples / "sphere.ptreeset"));
   ASSERT_TRUE(set) << set.error().text;
   ASSERT_EQ(set->members.size(), 4u);
   std::uint32_t pages = 0;
   for (const storage::SetMember& member : set->members) {
-    const storage::Bytes bytes = storage::read_bytes(kSamples / member.address);
+    const storage::Bytes bytes = storage::read_bytes(kSetSamples / member.address);
     EXPECT_EQ(bytes.size(), member.bytes);
     EXPECT_EQ(storage::hash128(bytes), member.hash);
     pages += member.pages;
   }
-  const auto model = Model::open(kSamples / "sphere.ptreeset");
+  const auto model = Model::open(kSetSamples / "sphere.ptreeset");
   ASSERT_TRUE(model) << model.error().text;
   EXPECT_EQ(model->info().content_id[0], set->content_id.low);
   EXPECT_EQ(model->info().content_id[1], set->content_id.high);
@@ -36,7 +36,7 @@ TEST(SampleSet, HasTheMembersThatItNames) {
 
 // A sphere of radius 100 whose corners lie on it.
 TEST(SampleSet, IsASphere) {
-  const auto model = Model::open(kSamples / "sphere.ptreeset");
+  const auto model = Model::open(kSetSamples / "sphere.ptreeset");
   ASSERT_TRUE(model) << model.error().text;
   EXPECT_TRUE(model->info().watertight());
   Probe probe = make_probe(*model);
