@@ -76,7 +76,6 @@ void add_records(SubcommandOptions& subcommand, TouchOptions& options) {
   add_policy(subcommand, arguments.policy);
   options.layers = add_open_layers(subcommand, arguments.layers);
   add_http_cache(subcommand, arguments.source);
-  add_missing_members(subcommand, arguments.source);
   subcommand.path("--ticks", "OUT.csv", arguments.ticks,
                   "Write all ticks here: tick,x,y,z,latency_us,query_us,width,side,status and, of "
                   "a scene, the position of the nearest instance in its file");
