@@ -52,18 +52,18 @@ NewSet::NewSet(std::filesystem::path path, SetDivision division, NewFile descrip
       replace_(replace),
       calls_(calls) {}
 
-std::string NewSet::name_of(const Hash128& id, std::size_t member) const {
+std::string NewSet::name_of(std::size_t member, const Hash128& hash) const {
   char rest[64];
-  std::snprintf(rest, sizeof rest, ".%016llx.%03zu", static_cast<unsigned long long>(id.high),
-                member);
+  std::snprintf(rest, sizeof rest, ".%03zu.%016llx", member,
+                static_cast<unsigned long long>(hash.high));
   return path_.stem().string() + rest + kMemberExtension;
 }
 
 Result<void> NewSet::add_member() {
   if (members_.size() == SetDescription::kMaxMembers)
     return bad_argument("a set has at most 256 members; give a larger size of members");
-  // It gets its name when the content id is known.
-  auto file = NewFile::create(folder() / name_of({}, members_.size()), true, calls_);
+  // It gets its name when its hash is known.
+  auto file = NewFile::create(folder() / name_of(members_.size(), {}), true, calls_);
   if (!file) return file.error();
   members_.push_back({*std::move(file), 0, {}});
   return {};
@@ -146,12 +146,12 @@ SetDescription NewSet::describe(const FileHeader& header,
     const std::uint32_t first = page;
     for (; page < pages.size() && page_end + pages[page].stored_bytes <= end; ++page)
       page_end += pages[page].stored_bytes;
-    description.members.push_back(
-        {.address = name_of(description.content_id, description.members.size()),
-         .bytes = member.bytes,
-         .hash = member.hasher.value(),
-         .pages = page - first,
-         .box = division_.box_of_pages(first, page)});
+    const Hash128 hash = member.hasher.value();
+    description.members.push_back({.address = name_of(description.members.size(), hash),
+                                   .bytes = member.bytes,
+                                   .hash = hash,
+                                   .pages = page - first,
+                                   .box = division_.box_of_pages(first, page)});
   }
   assert(page == pages.size());
   return description;

@@ -27,12 +27,15 @@ struct SetDivision {
 };
 
 /// A new set: members beside their set file. The first member has what is before the pages. The
-/// names of members contain the content id, so that they never replace those of another model.
+/// name of a member contains the hash of its bytes, so that it never replaces one with other bytes,
+/// of another model or of the same in other members.
 ///
 /// All members are durable under their names before the set file appears. Before that, a failure
-/// leaves nothing, and a killed process leaves members at most, which a later build of the same
-/// model replaces. When the set file of an earlier set is replaced, the members of that set beside
-/// it are removed. threads  one at a time
+/// leaves nothing, and a killed process leaves members at most, which a later build of the same set
+/// replaces. When the set file of an earlier set is replaced, the members of that set beside it are
+/// removed.
+///
+/// threads  one at a time
 class NewSet final : public ModelOutput {
  public:
   /// path     of the set file
@@ -60,7 +63,7 @@ class NewSet final : public ModelOutput {
   NewSet(std::filesystem::path path, SetDivision division, NewFile description, bool replace,
          FileCalls& calls);
   std::filesystem::path folder() const;
-  std::string name_of(const Hash128& id, std::size_t member) const;
+  std::string name_of(std::size_t member, const Hash128& hash) const;
   Result<void> add_member();
   Result<void> hash_first_member();
   Result<void> publish(const SetDescription& description, Names& names);

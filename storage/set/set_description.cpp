@@ -106,8 +106,8 @@ SetMember member_of(const Json& json, const char*& cause) {
   SetMember member;
   member.address = object.text("address");
   if (!is_address(member.address)) cause = "an address of a member is none";
-  // Lengths of 2^55 bytes can be added for all members.
-  member.bytes = object.number("bytes", std::uint64_t{1} << 55, "a length of a member is none");
+  // All readers of JSON read such numbers exactly.
+  member.bytes = object.number("bytes", std::uint64_t{1} << 53, "a length of a member is none");
   if (member.bytes == 0) cause = "a member is empty";
   member.hash = object.hash("hash", "a hash of a member is not 32 hexadecimal digits");
   member.pages = static_cast<std::uint32_t>(

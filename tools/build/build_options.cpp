@@ -92,8 +92,8 @@ void add_resources(SubcommandOptions& subcommand, BuildOptions& options, BuildOp
 void add_set(SubcommandOptions& subcommand, BuildOptionTexts& text) {
   const auto set = subcommand.flag(
       "--set", text.set,
-      "Write a set, OUT.ptreeset: members beside it have the bytes of the file, and it says which. "
-      "For file systems and servers that refuse large files, and for machines that keep a part");
+      "Write a set: members beside OUT.ptreeset hold the bytes of the file, and it lists them. For "
+      "file systems and servers that refuse large files, and for machines that keep a part");
   const auto size = subcommand.bytes("--member-size", text.member_bytes,
                                      "Maximum length of a member of the set, from 64K on. Members "
                                      "are longer if there would be more than 256");

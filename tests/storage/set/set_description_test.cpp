@@ -76,6 +76,7 @@ TEST(SetDescription, RefusesValuesThatAreNone) {
       {"\"bytes\":2048", "\"bytes\":2049"},
       {"\"bytes\":2048", "\"bytes\":-1"},
       {"\"bytes\":2048", "\"bytes\":0"},
+      {"\"bytes\":2048", "\"bytes\":9007199254740993"},
       {"\"bytes\":2048", "\"bytes\":1e3"},
       {"\"bytes\":2048", "\"bytes\":18446744073709551615"},
       {"\"pages\":7", "\"pages\":4294967296"},
