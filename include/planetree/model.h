@@ -113,7 +113,7 @@ struct OpenOptions {
   /// Whether a set may be opened of which members are missing: a part of a large model on a small
   /// machine. Pages of missing members cannot be read: answers that need one are
   /// Status::kDegraded, with intervals that hold, and all others are exact. The first two members
-  /// have to be there. Of a set on a server, members are opened when they are first read.
+  /// and the last one have to be there. Members on servers are opened when they are first read.
   bool allow_missing_members = false;
 
   static constexpr unsigned kMaxProbes = 1024;       ///< limit of `max_probes`
@@ -129,8 +129,8 @@ struct OpenOptions {
 /// outlive its probes.
 ///
 /// The files must not be written to or truncated while they are open: pages read later then count
-/// as damaged. It may be removed or replaced by another file, because the model keeps the one that
-/// it opened. A process made by fork() must not use the model, because the model's threads do not
+/// as damaged. They may be removed or replaced by others, because the model keeps those that it
+/// opened. A process made by fork() must not use the model, because the model's threads do not
 /// run there.
 class PLANETREE_API Model {
  public:
@@ -138,13 +138,12 @@ class PLANETREE_API Model {
   /// threads. If the side layer is opened, also reads the upper cells of the mask into the side
   /// grid. If the field layer is opened, also reads the field.
   ///
-  /// path     a regular file, or a URL that starts with `http://` or `https://`. If its name ends
-  /// in
-  ///          `.ptreeset`, it is a set file. The members of a set are opened too; it
-  ///          answers as the one file does, bit for bit. A server must serve ranges of bytes; its
-  ///          model answers as one of the file does, bit for bit. Of a large one, neither the field
-  ///          nor the side grid is read at open. The budget then includes 16.5 MiB for clusters and
-  ///          connections.
+  /// path     a regular file, or a URL that starts with `http://` or `https://`.
+  ///          A name that ends in `.ptreeset` is that of a set file; the members are opened too. A
+  ///          server must serve ranges of bytes. Models of sets and of URLs answer as one of the
+  ///          single file does, bit for bit. Of a large model on a server, neither the field nor
+  ///          the side grid is read at open. The budget then includes 16.5 MiB for clusters and
+  ///          connections; of a set, at least 2.5 MiB for each member.
   /// errors   kUnsupported: compiler options or the processor change floating-point results.
   ///          kBadArgument: an option is out of range. Both are found before the file is opened.
   ///          kNotFound, kPermission, kReadFailed: the file or the URL cannot be read.

@@ -30,9 +30,8 @@ struct OrderedMesh {
 
 /// Reads a mesh without sorting it.
 ///
-/// scratch  as for read_mesh(). After an error, MeshScratch::file() is the file that it concerns,
-/// if
-///          there is one.
+/// scratch  as for read_mesh(). After an error, MeshScratch::file() is the file that it concerns;
+///          empty if there is none.
 /// sink     receives the triangles.
 /// kept     receives the attributes that options.keep names.
 /// return   everything but the runs.
