@@ -251,12 +251,11 @@ int run_inspect(const InspectArguments& arguments, Console& console) {
   if (arguments.why) return show_why(arguments, console);
   const std::string file = arguments.file.string();
   const storage::HttpOptions http{arguments.source.directory, arguments.source.bytes, {}};
-  auto members = SetSurvey::of(arguments.file, http, false);
-  if (!members) return console.fail(file, members.error());
   auto parts = FileParts::open(arguments.file, storage::FileCalls::real(), http);
   if (!parts) return console.fail(file, parts.error());
-  if (*members) (*members)->add_issues(*parts);
-  Inspection inspection(arguments, console, *parts, *std::move(members));
+  auto members = SetSurvey::of(*parts, false);
+  if (members) members->add_issues(*parts);
+  Inspection inspection(arguments, console, *parts, std::move(members));
   // A file without a readable header or directory has no pages to show.
   const bool has_pages = parts->page_count() > 0;
   if (arguments.node && has_pages) return inspection.show_nodes();

@@ -56,11 +56,9 @@ std::string plain_report(const VerifyArguments& arguments, const CheckReport& re
 
 int run_verify(const VerifyArguments& arguments, Console& console) {
   const storage::HttpOptions http{arguments.source.directory, arguments.source.bytes, {}};
-  const auto members = SetSurvey::of(arguments.file, http, arguments.full);
-  if (!members) return console.fail(arguments.file.string(), members.error());
   auto parts = FileParts::open(arguments.file, storage::FileCalls::real(), http);
   if (!parts) return console.fail(arguments.file.string(), parts.error());
-  if (*members) (*members)->add_issues(*parts);
+  if (const auto members = SetSurvey::of(*parts, arguments.full)) members->add_issues(*parts);
   Progress progress(arguments.quiet, arguments.json);
   progress.start("verifying", parts->page_count(), "pages");
   const CheckReport report =

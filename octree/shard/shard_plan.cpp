@@ -11,11 +11,10 @@
 #include "octree/builder/mesh/side_files.h"
 #include "storage/system/file_error.h"
 #include "storage/system/file_handle.h"
+#include "storage/system/read_parts.h"
 
 namespace planetree::octree {
 namespace {
-
-constexpr std::size_t kHashBytes = std::size_t{4} << 20;
 
 Result<void> hash_file(const std::filesystem::path& path, storage::FileCalls& calls,
                        storage::Hasher& hasher) {
@@ -24,13 +23,9 @@ Result<void> hash_file(const std::filesystem::path& path, storage::FileCalls& ca
     return storage::file_error(errno, storage::FileAction::kRead, "open the file");
   const auto size = file.size_bytes();
   if (!size) return size.error();
-  std::vector<std::byte> part(static_cast<std::size_t>(std::min<std::uint64_t>(kHashBytes, *size)));
-  for (std::uint64_t offset = 0; offset < *size; offset += part.size()) {
-    const auto bytes = std::span(part).first(
-        static_cast<std::size_t>(std::min<std::uint64_t>(part.size(), *size - offset)));
-    if (const auto read = file.read_at(offset, bytes); !read) return read;
-    hasher.add(bytes);
-  }
+  const auto read =
+      storage::read_parts(file, *size, [&hasher](const auto& part) { hasher.add(part); });
+  if (!read) return read;
   const std::uint64_t length = *size;
   hasher.add(std::as_bytes(std::span(&length, 1)));
   return {};

@@ -10,6 +10,7 @@
 
 #include "storage/set/member_address.h"
 #include "storage/system/byte_source.h"
+#include "storage/system/read_parts.h"
 
 namespace planetree::storage {
 namespace {
@@ -101,13 +102,8 @@ Result<void> NewSet::write_at(std::uint64_t offset, std::span<const std::byte> b
 // What is before the pages was not written in order.
 Result<void> NewSet::hash_first_member() {
   NewMember& first = members_.front();
-  std::vector<std::byte> part(std::size_t{1} << 20);
-  for (std::uint64_t at = 0; at < first.bytes; at += part.size()) {
-    part.resize(static_cast<std::size_t>(std::min<std::uint64_t>(part.size(), first.bytes - at)));
-    if (const auto read = first.file.file().read_at(at, part); !read) return read;
-    first.hasher.add(part);
-  }
-  return {};
+  return read_parts(first.file.file(), first.bytes,
+                    [&first](const auto& part) { first.hasher.add(part); });
 }
 
 Result<void> NewSet::commit(const FileHeader& header, std::span<const DirectoryPage> pages) {

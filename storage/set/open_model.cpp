@@ -19,6 +19,11 @@ bool is_remote(const std::filesystem::path& set, const SetDescription& descripti
                      [](const SetMember& member) { return is_http_url(member.address); });
 }
 
+Error no_memory() {
+  return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
+                    "no memory to open the set; free some and try again");
+}
+
 // Many members get less memory each.
 HttpOptions options_of_members(HttpOptions http, std::size_t members) {
   http.clusters = std::max(http.clusters / members, ClusterMemory::kMinSlots);
@@ -35,9 +40,14 @@ Result<std::unique_ptr<SetSource>> read_set(const std::filesystem::path& path,
   const HttpOptions http = options_of_members(options.http, description->members.size());
   const auto open = [path, http,
                      &calls](const std::string& address) -> Result<std::unique_ptr<ByteSource>> {
-    const auto member = member_path(path, address);
-    if (!member) return member.error();
-    return open_source(*member, http, calls);
+    // Queries, which do not throw, open members too.
+    try {
+      const auto member = member_path(path, address);
+      if (!member) return member.error();
+      return open_source(*member, http, calls);
+    } catch (const std::bad_alloc&) {
+      return no_memory();
+    }
   };
   auto set = std::make_unique<SetSource>(*std::move(description), remote ? memory_of_url(http) : 0,
                                          std::string((*file)->name()), open);
@@ -53,8 +63,7 @@ Result<std::unique_ptr<SetSource>> open_set(const std::filesystem::path& path,
   try {
     return read_set(path, options, calls);
   } catch (const std::bad_alloc&) {
-    return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
-                      "no memory to open the set; free some and try again");
+    return no_memory();
   }
 }
 

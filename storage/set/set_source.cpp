@@ -58,9 +58,11 @@ SetSource::Piece SetSource::piece_at(const ByteRange& range) const noexcept {
   return {member, range.offset - start, std::min(range.bytes, *end - range.offset)};
 }
 
-/// Calls visit(piece, bytes before it) until it returns false. Returns whether it never did.
+/// Calls visit(piece, bytes before it) until it returns false. Returns whether it never did. A
+/// range beyond the end has no pieces, and the call returns false.
 template <class Visit>
 bool SetSource::for_each_piece(ByteRange range, const Visit& visit) const noexcept {
+  if (range.offset > size_bytes() || range.bytes > size_bytes() - range.offset) return false;
   for (std::uint64_t done = 0; range.bytes > 0;) {
     const Piece piece = piece_at(range);
     if (!visit(piece, done)) return false;
@@ -108,7 +110,6 @@ Result<void> SetSource::read_early(std::uint64_t offset, std::span<std::byte> ou
 
 bool SetSource::try_read(std::uint64_t offset, std::span<std::byte> out,
                          const ReadLimits& terms) const noexcept {
-  if (offset > size_bytes() || out.size() > size_bytes() - offset) return false;
   return for_each_piece({offset, out.size()}, [&](const Piece& piece, std::uint64_t done) {
     const ByteSource* const source = opened(piece.member);
     return source && source->try_read(piece.offset,
@@ -122,7 +123,6 @@ bool SetSource::try_read(std::uint64_t offset, std::span<std::byte> out,
 std::vector<std::vector<ByteRange>> SetSource::divide(std::span<const ByteRange> ranges) const {
   std::vector<std::vector<ByteRange>> of_member(ends_.size());
   for (const ByteRange& range : ranges) {
-    if (range.offset > size_bytes() || range.bytes > size_bytes() - range.offset) continue;
     for_each_piece(range, [&](const Piece& piece, std::uint64_t) {
       of_member[piece.member].push_back({piece.offset, piece.bytes});
       return true;
@@ -132,15 +132,12 @@ std::vector<std::vector<ByteRange>> SetSource::divide(std::span<const ByteRange>
 }
 
 void SetSource::prefetch(std::span<const ByteRange> ranges) const noexcept {
-  try {
-    const auto of_member = divide(ranges);
-    for (std::size_t i = 0; i < of_member.size(); ++i) {
-      if (of_member[i].empty()) continue;
-      if (const auto source = open_member(i)) (*source)->prefetch(of_member[i]);
-    }
-  } catch (const std::bad_alloc&) {
-    return;  // read_at() reads them all the same
-  }
+  for (const ByteRange& range : ranges)
+    for_each_piece(range, [this](const Piece& piece, std::uint64_t) {
+      static_cast<void>(open_member(piece.member));
+      return true;
+    });
+  prefetch_within(ranges, std::chrono::hours(1));
 }
 
 void SetSource::prefetch_within(std::span<const ByteRange> ranges,

@@ -20,6 +20,7 @@
 #include "query/file/page_decoding.h"
 #include "storage/file/file_layout.h"
 #include "storage/http/http_options.h"
+#include "storage/set/set_source.h"
 #include "storage/system/byte_source.h"
 #include "storage/system/file_calls.h"
 #include "tools/check/frame_view.h"
@@ -69,6 +70,8 @@ class FileParts {
   void add_issue(Issue issue) { issues_.push_back(std::move(issue)); }
   std::uint64_t actual_bytes() const { return actual_bytes_; }
   const std::filesystem::path& path() const { return path_; }
+  /// The set whose members have the bytes. Null if a file has them.
+  const storage::SetSource* set() const { return set_; }
 
   /// The header. Null if neither header is whole or this program does not know the format version.
   const storage::FileHeader* header() const { return has_header_ ? &header_ : nullptr; }
@@ -142,6 +145,8 @@ class FileParts {
 
  private:
   FileParts() = default;
+  Result<std::unique_ptr<storage::ByteSource>> open_source(storage::FileCalls& calls,
+                                                           const storage::HttpOptions& http);
   Result<void> load();
   Result<void> load_extensions();
   Result<void> load_extension(const storage::ExtensionRecord& record);
@@ -153,6 +158,7 @@ class FileParts {
 
   std::filesystem::path path_;
   std::unique_ptr<storage::ByteSource> file_;
+  const storage::SetSource* set_ = nullptr;  // file_, if that is a set
   std::uint64_t actual_bytes_ = 0;
   bool has_header_ = false;
   storage::FileHeader header_{};

@@ -10,11 +10,10 @@
 #include <vector>
 
 #include "storage/system/file_calls.h"
+#include "storage/system/read_parts.h"
 
 namespace planetree::tools {
 namespace {
-
-constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
 
 struct FreeContext {
   void operator()(EVP_MD_CTX* context) const { EVP_MD_CTX_free(context); }
@@ -41,13 +40,12 @@ Result<std::string> sha256_of_file(const std::filesystem::path& path) {
 Result<std::string> sha256_of(const storage::ByteSource& source) {
   const std::unique_ptr<EVP_MD_CTX, FreeContext> context(EVP_MD_CTX_new());
   if (!context || EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) != 1) return no_digest();
-  std::vector<std::byte> piece;
-  for (std::uint64_t at = 0; at < source.size_bytes(); at += piece.size()) {
-    piece.resize(
-        static_cast<std::size_t>(std::min<std::uint64_t>(kPieceBytes, source.size_bytes() - at)));
-    if (const auto read = source.read_at(at, piece); !read) return read.error();
-    if (EVP_DigestUpdate(context.get(), piece.data(), piece.size()) != 1) return no_digest();
-  }
+  bool is_digested = true;
+  const auto read = storage::read_parts(source, source.size_bytes(), [&](const auto& part) {
+    is_digested = is_digested && EVP_DigestUpdate(context.get(), part.data(), part.size()) == 1;
+  });
+  if (!read) return read.error();
+  if (!is_digested) return no_digest();
   unsigned char digest[EVP_MAX_MD_SIZE];
   unsigned length = 0;
   if (EVP_DigestFinal_ex(context.get(), digest, &length) != 1) return no_digest();

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "storage/file/checksum.h"
-#include "storage/set/member_address.h"
-#include "storage/set/open_model.h"
+#include "storage/set/set_source.h"
+#include "storage/system/read_parts.h"
 #include "tools/cli/file_text.h"
 #include "tools/cli/layer_words.h"
 #include "tools/cli/size_text.h"
@@ -19,15 +19,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Result<storage::Hash128> hash_of(const storage::ByteSource& member) {
-  constexpr std::uint64_t kPartBytes = std::uint64_t{1} << 20;
   storage::Hasher hasher;
-  std::vector<std::byte> part;
-  for (std::uint64_t at = 0; at < member.size_bytes(); at += part.size()) {
-    part.resize(static_cast<std::size_t>(std::min(kPartBytes, member.size_bytes() - at)));
-    if (const auto read = member.read_at(at, part); !read) return read.error();
-    hasher.add(part);
-  }
-  return hasher.value();
+  const auto read = storage::read_parts(member, member.size_bytes(),
+                                        [&hasher](const auto& part) { hasher.add(part); });
+  return read ? Result<storage::Hash128>(hasher.value()) : read.error();
 }
 
 std::optional<Error> fault_of(const storage::SetSource& set, std::size_t number, bool hashes) {
@@ -69,17 +64,15 @@ std::string corner_text(const double (&corner)[3]) {
 
 }  // namespace
 
-Result<std::optional<SetSurvey>> SetSurvey::of(const std::filesystem::path& path,
-                                               const storage::HttpOptions& http, bool hashes) {
-  if (!storage::is_set_name(path.native())) return std::optional<SetSurvey>();
-  const auto set = storage::open_set(path, {http, true});
-  if (!set) return set.error();
+std::optional<SetSurvey> SetSurvey::of(const FileParts& parts, bool hashes) {
+  const storage::SetSource* const set = parts.set();
+  if (!set) return {};
   SetSurvey survey;
-  const storage::SetDescription& description = (*set)->description();
+  const storage::SetDescription& description = set->description();
   survey.content_id_ = description.content_id;
   for (std::size_t i = 0; i < description.members.size(); ++i)
-    survey.members_.push_back({description.members[i], fault_of(**set, i, hashes)});
-  return std::optional(std::move(survey));
+    survey.members_.push_back({description.members[i], fault_of(*set, i, hashes)});
+  return survey;
 }
 
 void SetSurvey::add_issues(FileParts& parts) const {

@@ -1,14 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "planetree/error.h"
-#include "storage/http/http_options.h"
 #include "storage/set/set_description.h"
 #include "tools/check/file_parts.h"
 #include "tools/check/issue.h"
@@ -18,13 +16,10 @@ namespace planetree::tools {
 /// The members of a set, and what is wrong with them.
 class SetSurvey {
  public:
-  /// Looks for the members. Returns nothing if `path` names a file rather than a set.
+  /// Looks for the members. Returns nothing if `parts` are those of a file rather than a set.
   ///
-  /// http    for URLs
   /// hashes  whether to read all members and compare their hashes
-  /// errors  those of storage::open_set()
-  static Result<std::optional<SetSurvey>> of(const std::filesystem::path& path,
-                                             const storage::HttpOptions& http, bool hashes);
+  static std::optional<SetSurvey> of(const FileParts& parts, bool hashes);
 
   /// Adds to the issues of `parts`, the set as a file: members that are missing or damaged, and
   /// where the set file is not that of the file.

@@ -12,19 +12,13 @@
 #include "tests/query/answer_bits.h"
 #include "tests/query/eventually.h"
 #include "tests/query/sample_model.h"
-#include "tests/storage/file/file_image.h"
+#include "tests/storage/set/sample_set.h"
 #include "tests/storage/system/temporary_directory.h"
 
 namespace planetree::query {
 namespace {
 
 constexpr std::size_t kMembers = 8;
-
-storage::SetDescription description_of(const std::filesystem::path& path) {
-  const auto description = storage::SetDescription::parse(storage::read_bytes(path));
-  EXPECT_TRUE(description) << description.error().text;
-  return description ? *description : storage::SetDescription();
-}
 
 /// One model as a file and as a set of 8 members or more.
 class FileAndSet {
@@ -33,7 +27,7 @@ class FileAndSet {
     build_soup(soup, file(), options);
     options.member_bytes = BuildOptions::kMinMemberBytes;
     build_soup(soup, set(), options);
-    const storage::SetDescription description = description_of(set());
+    const storage::SetDescription description = storage::description_of(set());
     EXPECT_GE(description.members.size(), kMembers);
     for (const storage::SetMember& member : description.members)
       members_.push_back(folder_ / member.address.c_str());
@@ -244,7 +238,7 @@ TEST(SetModels, DoNotMixModels) {
 
 TEST(SetModels, HaveBoxesOfTheirTriangles) {
   FileAndSet both(sphere_without(0));
-  const storage::SetDescription description = description_of(both.set());
+  const storage::SetDescription description = storage::description_of(both.set());
   double lower = 2, upper = -2;
   for (const storage::SetMember& member : description.members) {
     if (!member.box) continue;
