@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 
+#include "query/file/pages_below.h"
 #include "query/probe_state.h"
 
 namespace planetree::query {
@@ -81,6 +82,17 @@ std::span<std::uint32_t> BatchPrefetch::find_beyond(std::size_t first, std::size
   return is_late_ ? std::span<std::uint32_t>() : pages;
 }
 
+// Asks the server for pages and, if told to, for pages that they lead to.
+void BatchPrefetch::request(std::span<const std::uint32_t> pages, bool with_below) const noexcept {
+  const storage::PageFile& file = *probe_.model().remote_file;
+  std::array<std::uint32_t, kMaxPages> wanted;
+  std::copy(pages.begin(), pages.end(), wanted.begin());
+  std::size_t count = pages.size();
+  for (std::size_t i = 0; with_below && i < pages.size(); ++i)
+    count += find_pages_below(file, pages[i], std::span(wanted).subspan(count));
+  file.prefetch_within(std::span(wanted).first(count), probe_.wait_left());
+}
+
 // Returns false if no query lacks a page that can be got.
 bool BatchPrefetch::run_round(std::size_t first, std::size_t end) noexcept {
   const cache::PageCache& cache = probe_.model().cache;
@@ -92,7 +104,7 @@ bool BatchPrefetch::run_round(std::size_t first, std::size_t end) noexcept {
       find_beyond(first, end, std::span(missing).first(max_pages));
   if (pages.empty()) return false;
   std::sort(pages.begin(), pages.end());
-  probe_.model().remote_file->prefetch_within(pages, probe_.wait_left());
+  request(pages, end - first == 1);
   return load(pages);
 }
 

@@ -15,8 +15,9 @@ class ProbeState;
 
 /// Gets pages that the queries of a batch lack from the server of a remote model, before the
 /// queries run. Each round gets the first page that each query lacks for its distance and for its
-/// side, with requests at once; of a query alone, the first kMaxPagesOfOne pages. So a batch waits
-/// for a round trip for each level of the trees, not for each page.
+/// side, with requests at once; of a query alone, the first kMaxPagesOfOne pages, and the pages
+/// below those that have links alone. So a batch waits for a round trip for each level of the
+/// trees, not for each page.
 ///
 /// threads  that of the probe
 class BatchPrefetch {
@@ -61,6 +62,7 @@ class BatchPrefetch {
                            std::span<std::uint32_t> pages) noexcept;
   std::span<std::uint32_t> find_beyond(std::size_t first, std::size_t end,
                                        std::span<std::uint32_t> room) noexcept;
+  void request(std::span<const std::uint32_t> pages, bool with_below) const noexcept;
   bool load(std::span<const std::uint32_t> pages) noexcept;
   bool run_round(std::size_t first, std::size_t end) noexcept;
 

@@ -37,7 +37,7 @@ struct RangeRequest {
 class RangeClient {
  public:
   /// Maximum number of connections of one call.
-  static constexpr long kMaxConnections = 6;
+  static constexpr long kMaxConnections = 12;
   static constexpr std::chrono::milliseconds kNoLimit = std::chrono::milliseconds::max();
 
   RangeClient(std::string url, const HttpLimits& limits);
