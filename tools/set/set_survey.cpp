@@ -58,6 +58,15 @@ Issue issue_of(const char* message) {
   return {IssueCode::kSet, Error::kNowhere, Error::kNowhere, message};
 }
 
+// What is wrong with a member, after its box.
+const char* fault_word(const std::optional<Error>& fault) {
+  if (!fault) return "";
+  if (fault->code == ErrorCode::kNotFound) return "; missing";
+  const bool is_damaged =
+      fault->code == ErrorCode::kDamaged || fault->code == ErrorCode::kTruncated;
+  return is_damaged ? "; damaged" : "; cannot be read";
+}
+
 std::string corner_text(const double (&corner)[3]) {
   return fmt::format("{:.6g} {:.6g} {:.6g}", corner[0], corner[1], corner[2]);
 }
@@ -147,9 +156,8 @@ std::string SetSurvey::text(const FileParts& parts) const {
                                 ? fmt::format("; box {} to {}", corner_text(member.box->lower),
                                               corner_text(member.box->upper))
                                 : std::string();
-    text +=
-        fmt::format("  member {:<4} {}, {}, {}{}{}\n", i, member.address, short_bytes(member.bytes),
-                    pages, box, members_[i].fault ? "; missing or damaged" : "");
+    text += fmt::format("  member {:<4} {}, {}, {}{}{}\n", i, member.address,
+                        short_bytes(member.bytes), pages, box, fault_word(members_[i].fault));
   }
   return text;
 }

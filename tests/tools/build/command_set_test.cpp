@@ -132,6 +132,20 @@ TEST_F(CommandSet, MayLackMembersIfToldSo) {
   EXPECT_EQ(report["issues"][0]["code"], "SET");
 }
 
+TEST_F(CommandSet, TellsMissingMembersFromDamagedOnes) {
+  fs::remove(member(3));
+  fs::resize_file(member(2), 100);
+  const std::string text = run({"inspect", "set.ptreeset"}).output;
+  const auto line = [&text](const char* member) {
+    const std::size_t at = text.find(member);
+    return text.substr(at, text.find('\n', at) - at);
+  };
+  EXPECT_TRUE(line("member 3 ").ends_with("; missing")) << text;
+  EXPECT_TRUE(line("member 2 ").ends_with("; damaged")) << text;
+  EXPECT_EQ(line("member 1 ").find("; missing"), std::string::npos);
+  EXPECT_EQ(line("member 1 ").find("; damaged"), std::string::npos);
+}
+
 TEST_F(CommandSet, RefusesNamesAndSizes) {
   expect_refused(run({"build", "big.ply", "-o", "new.ptree", "--set"}), "OUT.ptreeset");
   expect_refused(run({"build", "big.ply", "-o", "new.ptreeset"}), "give --set too");
