@@ -70,7 +70,7 @@ struct Window {
     run_all(probe, first, end);
   }
   void run_remote(ProbeState& probe, std::size_t first, std::size_t end) const noexcept {
-    BatchPrefetch ahead(probe, queries, order, options);
+    BatchPrefetch ahead(probe, queries, order, options, BatchPrefetch::pages_each(end - first));
     probe.set_looks_ahead(false);
     while (first < end) {
       const std::size_t stop = std::min(first + BatchPrefetch::kQueries, end);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <chrono>
 #include <cstdint>
 
@@ -29,12 +30,10 @@ void BatchPrefetch::run_rounds(std::size_t first, std::size_t end) noexcept {
 std::size_t BatchPrefetch::find_missing(std::size_t first, std::size_t end,
                                         std::span<std::uint32_t> pages) noexcept {
   std::size_t count = 0;
-  // Of a single query, the next pages are got with the first one, so that it need not wait again if
-  // that one does not have the nearest triangle.
-  const std::size_t each = end - first == 1 ? kMaxPagesOfOne : 1;
   const auto add_missing = [&](const Vec3& query, const QueryOptions& options) {
-    std::array<std::uint32_t, kMaxPagesOfOne> lacking;
-    const std::size_t found = probe_.missing_pages(query, options, std::span(lacking).first(each));
+    std::array<std::uint32_t, kMaxPagesEach> lacking;
+    const std::size_t found =
+        probe_.missing_pages(query, options, std::span(lacking).first(pages_each_));
     for (const std::uint32_t page : std::span(lacking).first(found)) {
       const auto known = pages.first(count);
       if (count < pages.size() && std::find(known.begin(), known.end(), page) == known.end())
@@ -82,13 +81,13 @@ std::span<std::uint32_t> BatchPrefetch::find_beyond(std::size_t first, std::size
   return is_late_ ? std::span<std::uint32_t>() : pages;
 }
 
-// Asks the server for pages and, if told to, for pages that they lead to.
-void BatchPrefetch::request(std::span<const std::uint32_t> pages, bool with_below) const noexcept {
+// Asks the server for pages and, of few queries, for pages that they lead to.
+void BatchPrefetch::request(std::span<const std::uint32_t> pages) const noexcept {
   const storage::PageFile& file = *probe_.model().remote_file;
   std::array<std::uint32_t, kMaxPages> wanted;
   std::copy(pages.begin(), pages.end(), wanted.begin());
   std::size_t count = pages.size();
-  for (std::size_t i = 0; with_below && i < pages.size(); ++i)
+  for (std::size_t i = 0; pages_each_ > 1 && i < pages.size(); ++i)
     count += find_pages_below(file, pages[i], std::span(wanted).subspan(count));
   file.prefetch_within(std::span(wanted).first(count), probe_.wait_left());
 }
@@ -104,7 +103,7 @@ bool BatchPrefetch::run_round(std::size_t first, std::size_t end) noexcept {
       find_beyond(first, end, std::span(missing).first(max_pages));
   if (pages.empty()) return false;
   std::sort(pages.begin(), pages.end());
-  request(pages, end - first == 1);
+  request(pages);
   return load(pages);
 }
 
@@ -112,13 +111,21 @@ bool BatchPrefetch::run_round(std::size_t first, std::size_t end) noexcept {
 [[gnu::noinline]] std::uint32_t ProbeState::fetch_ahead(const Vec3& query,
                                                         const QueryOptions& options,
                                                         FetchReason reason,
+                                                        std::span<const Vec3> ahead,
                                                         const std::atomic<bool>& stop) noexcept {
+  assert(ahead.size() <= MotionPrefetch::kPositions);
+  std::array<Vec3, 1 + MotionPrefetch::kPositions> positions{query};
+  std::copy(ahead.begin(), ahead.end(), positions.begin() + 1);
+  const auto queries = std::span(positions).first(1 + ahead.size());
   const BatchOrder order;
   QueryOptions wanted = options;
   // The side of a probe that moves along the surface takes no pages of the mask.
   if (reason == FetchReason::kMotion && wanted.parts != kSide) wanted.parts &= ~kSide;
-  BatchPrefetch prefetch(*this, {&query, 1}, order, wanted, &stop);
-  prefetch.run_rounds(0, 1);
+  // The probe will not be exactly there, so the pages around are got too.
+  const std::size_t pages_each =
+      ahead.empty() ? BatchPrefetch::pages_each(1) : BatchPrefetch::kMaxPagesEach;
+  BatchPrefetch prefetch(*this, queries, order, wanted, pages_each, &stop);
+  prefetch.run_rounds(0, queries.size());
   return prefetch.loaded_pages();
 }
 
@@ -138,7 +145,7 @@ std::chrono::milliseconds ProbeState::wait_left() const noexcept {
 [[gnu::noinline]] bool ProbeState::look_ahead(const Vec3& query,
                                               const QueryOptions& options) noexcept {
   const BatchOrder order;
-  BatchPrefetch prefetch(*this, {&query, 1}, order, options);
+  BatchPrefetch prefetch(*this, {&query, 1}, order, options, BatchPrefetch::pages_each(1));
   prefetch.run_rounds(0, 1);
   return !prefetch.is_late();
 }

@@ -15,23 +15,37 @@ class ProbeState;
 
 /// Gets pages that the queries of a batch lack from the server of a remote model, before the
 /// queries run. Each round gets the first page that each query lacks for its distance and for its
-/// side, with requests at once; of a query alone, the first kMaxPagesOfOne pages, and the pages
-/// below those that have links alone. So a batch waits for a round trip for each level of the
-/// trees, not for each page.
+/// side, with requests at once. So a batch waits for a round trip for each level of the trees, not
+/// for each page. Of few queries it gets more pages each, and the pages below those with few nodes.
 ///
 /// threads  that of the probe
 class BatchPrefetch {
  public:
+  static constexpr std::size_t kMaxPagesEach = 6;
+  /// Returns how many pages to get of each query of a batch. Of a single one, the next pages are
+  /// got with the first one, so that it need not wait again if that one does not have the nearest
+  /// triangle.
+  static constexpr std::size_t pages_each(std::size_t queries) noexcept {
+    return queries == 1 ? 3 : 1;
+  }
   /// Number of queries that are looked at together.
   /// Few, so that the clusters that they need fit in memory.
   static constexpr std::size_t kQueries = 64;
 
   /// probe, queries, order  must outlive this
   /// options                of the batch; `wait` is ignored
+  /// pages_each             maximum number of pages of each query in a round, for its distance and
+  ///                        again for its side; 1 to kMaxPagesEach
   /// stop                   ends it after a round when it becomes true; may be null
   BatchPrefetch(ProbeState& probe, std::span<const Vec3> queries, const BatchOrder& order,
-                const QueryOptions& options, const std::atomic<bool>* stop = nullptr) noexcept
-      : probe_(probe), queries_(queries), order_(order), options_(options), stop_(stop) {
+                const QueryOptions& options, std::size_t pages_each,
+                const std::atomic<bool>* stop = nullptr) noexcept
+      : probe_(probe),
+        queries_(queries),
+        order_(order),
+        options_(options),
+        pages_each_(pages_each),
+        stop_(stop) {
     options_.wait = Wait::kNever;
   }
 
@@ -53,8 +67,6 @@ class BatchPrefetch {
   static constexpr unsigned kMaxRounds = 6;
   // Looks for missing pages in a round. Each but the last one loads pages that take no request.
   static constexpr unsigned kMaxLooks = 12;
-  // Pages of one query in a round, for its distance and again for its side, if it is alone.
-  static constexpr std::size_t kMaxPagesOfOne = 3;
   // Pages of one round. The frames and the clusters in memory must hold them.
   static constexpr std::size_t kMaxPages = 64;
 
@@ -62,7 +74,7 @@ class BatchPrefetch {
                            std::span<std::uint32_t> pages) noexcept;
   std::span<std::uint32_t> find_beyond(std::size_t first, std::size_t end,
                                        std::span<std::uint32_t> room) noexcept;
-  void request(std::span<const std::uint32_t> pages, bool with_below) const noexcept;
+  void request(std::span<const std::uint32_t> pages) const noexcept;
   bool load(std::span<const std::uint32_t> pages) noexcept;
   bool run_round(std::size_t first, std::size_t end) noexcept;
 
@@ -70,6 +82,7 @@ class BatchPrefetch {
   const std::span<const Vec3> queries_;
   const BatchOrder& order_;
   QueryOptions options_;
+  const std::size_t pages_each_;
   const std::atomic<bool>* const stop_;
   bool is_late_ = false;
   std::uint32_t loaded_pages_ = 0;

@@ -120,21 +120,23 @@ Containment ProbeState::contains(const Vec3& query, const QueryOptions& options)
 }
 
 std::uint32_t ProbeState::fetch_pages(const Vec3& query, const QueryOptions& options,
-                                      FetchReason reason, const std::atomic<bool>& stop) noexcept {
+                                      FetchReason reason, std::span<const Vec3> ahead,
+                                      const std::atomic<bool>& stop) noexcept {
   assert(options.wait == Wait::kForPages && options.max_work != QueryOptions::kNoLimit);
   const bool is_prefetch = reason != FetchReason::kMissed;
   if (!is_valid(query, options) ||
       (is_prefetch && model_.cache.frame_count() < kMinFramesToPrefetch &&
        !model_.cache.holds_all_pages()))
     return 0;
-  const std::uint32_t ahead = model_.remote_file ? fetch_ahead(query, options, reason, stop) : 0;
+  const std::uint32_t early =
+      model_.remote_file ? fetch_ahead(query, options, reason, ahead, stop) : 0;
   coherence_.is_on = coherence_.follows_motion = reason == FetchReason::kMotion;
   RunningQuery running(*this,
                        is_prefetch ? PageAccess::Query::kPrefetch : PageAccess::Query::kFetch,
                        options.wait, &stop);
   ClosestPoint unused = unanswered(Status::kExact);
   query::closest_point(running.context(), query, options, unused);
-  return ahead + running.fetched();
+  return early + running.fetched();
 }
 
 bool ProbeState::fetch_page(std::uint32_t page, const std::atomic<bool>& stop) noexcept {

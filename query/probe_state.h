@@ -101,7 +101,7 @@ class ProbeState {
   void set_fetcher() noexcept { is_fetcher_ = true; }
   /// See FetchProbe::fetch_pages.
   std::uint32_t fetch_pages(const Vec3& query, const QueryOptions& options, FetchReason reason,
-                            const std::atomic<bool>& stop) noexcept;
+                            std::span<const Vec3> ahead, const std::atomic<bool>& stop) noexcept;
   /// See FetchProbe::fetch_triangles.
   void fetch_triangles(const TriangleSetQuery& query, std::uint64_t count,
                        const QueryOptions& options, const std::atomic<bool>& stop) noexcept;
@@ -162,7 +162,7 @@ class ProbeState {
   ClosestPoint find_remote_closest_point(const Vec3& query, const QueryOptions& options) noexcept;
   bool look_ahead(const Vec3& query, const QueryOptions& options) noexcept;
   std::uint32_t fetch_ahead(const Vec3& query, const QueryOptions& options, FetchReason reason,
-                            const std::atomic<bool>& stop) noexcept;
+                            std::span<const Vec3> ahead, const std::atomic<bool>& stop) noexcept;
   cache::FetchTerms remote_terms() const noexcept;
   cache::FetchTerms terms_of(Wait wait) const noexcept {
     if (is_fetcher_) return model_.fetcher_terms;
@@ -271,8 +271,9 @@ class QueryingFetchProbe final : public FetchProbe {
   }
 
   std::uint32_t fetch_pages(const Vec3& query, const QueryOptions& options, FetchReason reason,
+                            std::span<const Vec3> ahead,
                             const std::atomic<bool>& stop) noexcept override {
-    return probe_->fetch_pages(query, options, reason, stop);
+    return probe_->fetch_pages(query, options, reason, ahead, stop);
   }
   void fetch_triangles(const Vec3& query, double radius, std::uint64_t count,
                        const QueryOptions& options,

@@ -4,6 +4,7 @@
 #include <sched.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <chrono>
 #include <csignal>
@@ -16,6 +17,8 @@
 
 namespace planetree::query {
 namespace {
+
+using Positions = std::array<Vec3, MotionPrefetch::kPositions>;
 
 QueryOptions blocking_options(std::uint64_t parts, std::uint64_t side_rule) {
   QueryOptions options;
@@ -84,6 +87,8 @@ bool FetchWorker::serve_request(std::size_t index) noexcept {
   // A query that starts from coherence may spend its work elsewhere than this one from the root.
   options.max_work = std::clamp(static_cast<std::uint32_t>(request.max_work),
                                 QueryOptions::kRealTimeWork, QueryOptions::kNoLimit - 1);
+  take_motion(index);
+  Positions positions;
   const Seconds began = clock_();
   if (request.is_way != 0)
     probe_->fetch_way({request.point, request.to, request.radius}, request.triangles, options,
@@ -91,22 +96,30 @@ bool FetchWorker::serve_request(std::size_t index) noexcept {
   else if (request.triangles > 0)
     probe_->fetch_triangles(request.point, request.radius, request.triangles, options, stop_);
   else
-    probe_->fetch_pages(request.point, options, FetchReason::kMissed, stop_);
+    probe_->fetch_pages(request.point, options, FetchReason::kMissed,
+                        progress_[index].motion.left(slowest_fetch_, positions), stop_);
   note_fetch_time(clock_() - began);
   return true;
 }
 
-// Prefetches one position at a time, so that requests need not wait for all of them.
-bool FetchWorker::prefetch_position(std::size_t index) noexcept {
+void FetchWorker::take_motion(std::size_t index) noexcept {
   Progress& progress = progress_[index];
   Motion motion;
   if (requests_[index].motion.load_newer(progress.seen_motion, motion))
     progress.motion.take(motion, clock_());
-  if (!progress.motion.has_next()) return false;
-  const MotionPrefetch::Ahead ahead = progress.motion.next(slowest_fetch_);
-  const std::uint32_t pages = probe_->fetch_pages(
-      ahead.position, blocking_options(ahead.parts, ahead.side_rule),
-      ahead.searches_side ? FetchReason::kMotionOfSides : FetchReason::kMotion, stop_);
+}
+
+// Prefetches one position at a time, so that requests need not wait for all of them.
+bool FetchWorker::prefetch_position(std::size_t index) noexcept {
+  take_motion(index);
+  MotionPrefetch& motion = progress_[index].motion;
+  if (!motion.has_next()) return false;
+  const MotionPrefetch::Ahead ahead = motion.next(slowest_fetch_);
+  Positions positions;
+  const std::uint32_t pages =
+      probe_->fetch_pages(ahead.position, blocking_options(ahead.parts, ahead.side_rule),
+                          ahead.searches_side ? FetchReason::kMotionOfSides : FetchReason::kMotion,
+                          motion.left(slowest_fetch_, positions), stop_);
   pages_prefetched_.fetch_add(pages, std::memory_order_relaxed);
   return true;
 }

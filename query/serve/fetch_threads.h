@@ -37,10 +37,13 @@ class FetchProbe {
   /// query    model units
   /// options  Wait::kForPages with limited work. Such a query starts from the root, since the
   ///          coherence of this probe does not tell which pages are resident.
+  /// ahead    where the probe of the query will be next, at most MotionPrefetch::kPositions. A
+  ///          remote model gets the pages there by the same requests. Others leave them out
   /// stop     once true, the call gives up before the next missing page
   /// return   number of pages that were not resident and are now
   virtual std::uint32_t fetch_pages(const Vec3& query, const QueryOptions& options,
-                                    FetchReason reason, const std::atomic<bool>& stop) noexcept = 0;
+                                    FetchReason reason, std::span<const Vec3> ahead,
+                                    const std::atomic<bool>& stop) noexcept = 0;
   /// Makes the pages resident that a search for triangles needs.
   ///
   /// radius, count  the nearest `count` triangles within `radius`, model units
@@ -118,6 +121,7 @@ class FetchWorker {
 
   bool serve_any_probe(bool (FetchWorker::*step)(std::size_t) noexcept) noexcept;
   bool serve_request(std::size_t index) noexcept;
+  void take_motion(std::size_t index) noexcept;
   bool prefetch_position(std::size_t index) noexcept;
   bool read_next_page() noexcept;
   void note_fetch_time(Seconds taken) noexcept;

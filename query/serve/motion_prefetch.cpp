@@ -53,13 +53,25 @@ Vec3 MotionPrefetch::turned(Seconds time) const noexcept {
   return sum({}, change_, turn2 > way2 ? times * std::sqrt(way2 / turn2) : times);
 }
 
+// number  1 to kPositions
+Vec3 MotionPrefetch::position(unsigned number, Seconds fetch_time) const noexcept {
+  const Seconds horizon = std::clamp(2 * (fetch_time + interval_), kMinHorizon, kMaxHorizon);
+  const Seconds time = horizon * number / kPositions;
+  const Vec3 straight = sum(motion_.position, motion_.velocity, time.count());
+  return number < kPositions ? sum(straight, turned(time), 1) : straight;
+}
+
+std::span<const Vec3> MotionPrefetch::left(Seconds fetch_time,
+                                           std::span<Vec3> positions) const noexcept {
+  assert(positions.size() >= left_);
+  for (unsigned i = 0; i < left_; ++i)
+    positions[i] = position(kPositions - left_ + i + 1, fetch_time);
+  return positions.first(left_);
+}
+
 MotionPrefetch::Ahead MotionPrefetch::next(Seconds fetch_time) noexcept {
   assert(has_next());
-  const Seconds horizon = std::clamp(2 * (fetch_time + interval_), kMinHorizon, kMaxHorizon);
-  const unsigned at = kPositions - --left_;
-  const Seconds time = horizon * at / kPositions;
-  Vec3 position = sum(motion_.position, motion_.velocity, time.count());
-  if (has_next()) position = sum(position, turned(time), 1);
+  const Vec3 position = this->position(kPositions - --left_, fetch_time);
   return {position, motions_since_search_ < kMotionsAfterSearch, motion_.parts, motion_.side_rule};
 }
 

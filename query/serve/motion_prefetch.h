@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <span>
 
 #include "planetree/types.h"
 #include "query/serve/fetch_requests.h"
@@ -52,10 +53,15 @@ class MotionPrefetch {
   ///
   /// fetch_time  time that a fetch takes
   Ahead next(Seconds fetch_time) noexcept;
+  /// Returns the positions that next() has not returned, in the same order.
+  ///
+  /// positions  receives them; at least kPositions
+  std::span<const Vec3> left(Seconds fetch_time, std::span<Vec3> positions) const noexcept;
 
  private:
   static bool is_as_fast(const Motion& motion, const Motion& other) noexcept;
   void compare_with_last(const Motion& motion, Seconds now) noexcept;
+  Vec3 position(unsigned number, Seconds fetch_time) const noexcept;
   Vec3 turned(Seconds time) const noexcept;
 
   Motion motion_;  // the last one

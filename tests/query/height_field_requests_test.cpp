@@ -77,7 +77,7 @@ TEST_F(HeightFieldRequests, PrefetchesLeaveTheMaskOutWhereFacesDecideTheSide) {
     for (const Vec3& point : random_queries(100, -1, 1)) {
       const double share =
           0.999 / std::sqrt(point.x * point.x + point.y * point.y + point.z * point.z);
-      probe.fetch_pages({point.x * share, point.y * share, point.z * share}, options, reason,
+      probe.fetch_pages({point.x * share, point.y * share, point.z * share}, options, reason, {},
                         never_);
     }
     return model.stats().pages_read - before;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -96,6 +97,26 @@ TEST(MotionPrefetch, NewerMotionReplacesThePositionsLeft) {
   ASSERT_EQ(distances.size(), MotionPrefetch::kPositions);
   EXPECT_GT(distances.front(), 0);
   EXPECT_LT(distances.back(), 1);
+}
+
+TEST(MotionPrefetch, TellsThePositionsThatAreLeft) {
+  MotionPrefetch prefetch, other;
+  for (MotionPrefetch* const each : {&prefetch, &other}) {
+    each->take({{0, 0, 0}, {100, 0, 0}}, Seconds(0));
+    each->take({{1, 0, 0}, {100, 20, 0}}, Seconds(0.01));
+  }
+  std::array<Vec3, MotionPrefetch::kPositions> room;
+  EXPECT_EQ(prefetch.left({}, room).size(), MotionPrefetch::kPositions);
+  (void)prefetch.next({});
+  (void)other.next({});
+  const auto left = prefetch.left({}, room);
+  ASSERT_EQ(left.size(), MotionPrefetch::kPositions - 1);
+  for (const Vec3& position : left) {
+    const Vec3 expected = other.next({}).position;
+    EXPECT_EQ(position.x, expected.x);
+    EXPECT_EQ(position.y, expected.y);
+  }
+  EXPECT_TRUE(other.left({}, room).empty());
 }
 
 TEST(MotionPrefetch, ProbeAtRestHasNone) {
