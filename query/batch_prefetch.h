@@ -26,7 +26,7 @@ class BatchPrefetch {
   /// got with the first one, so that it need not wait again if that one does not have the nearest
   /// triangle.
   static constexpr std::size_t pages_each(std::size_t queries) noexcept {
-    return queries == 1 ? 3 : 1;
+    return queries == 1 ? 4 : 1;
   }
   /// Number of queries that are looked at together.
   /// Few, so that the clusters that they need fit in memory.

@@ -31,7 +31,7 @@ class RemoteChunks : public ChunkedSphere {
   const std::atomic<bool> never_{false};
 };
 
-// A page with a node or two comes with pages below it. If it came alone, 3 of the points would take
+// A page with a node or two comes with pages below it. If it came alone, several points would take
 // more than one round trip.
 TEST_F(RemoteChunks, FirstQueriesWaitForNoPageWithFewNodes) {
   std::size_t with_more_rounds = 0;
