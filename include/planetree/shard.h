@@ -34,7 +34,7 @@ namespace planetree {
 
 /// What was planned.
 struct ShardPlanReport {
-  std::uint32_t shards = 0;
+  std::uint32_t shards = 0;        ///< number of shards of the job
   std::uint64_t triangles = 0;     ///< usable triangles of the mesh
   std::uint64_t skipped = 0;       ///< triangle indices of skipped records
   std::uint64_t input_bytes = 0;   ///< length of the mesh files

@@ -100,9 +100,11 @@ struct Stats {
   std::uint64_t fetch_requests_served = 0;  ///< fetch requests that a fetch thread has served
   std::uint64_t pages_prefetched = 0;       ///< pages read because of Probe::motion
   std::uint64_t pages_read_ahead = 0;       ///< pages read because of OpenOptions::read_ahead
-  /// Of a model opened by URL: requests sent, repeated ones included; bytes that came; bytes that
-  /// OpenOptions::http_cache had instead. 0 for a file.
-  std::uint64_t http_requests = 0, http_bytes = 0, http_cached_bytes = 0;
+  /// Of a model opened by URL: requests sent, repeated ones included. This and the next three are 0
+  /// for a file.
+  std::uint64_t http_requests = 0;
+  std::uint64_t http_bytes = 0;         ///< bytes that came from the server
+  std::uint64_t http_cached_bytes = 0;  ///< bytes that OpenOptions::http_cache had instead
   /// Of a model opened by URL: round trips that had to follow each other. Requests that were on the
   /// way at once count as one. Times the latency of the server, the time that requests took at
   /// least.
