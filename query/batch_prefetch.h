@@ -21,6 +21,7 @@ class ProbeState;
 /// threads  that of the probe
 class BatchPrefetch {
  public:
+  /// Maximum of `pages_each`.
   static constexpr std::size_t kMaxPagesEach = 6;
   /// Returns how many pages to get of each query of a batch. Of a single one, the next pages are
   /// got with the first one, so that it need not wait again if that one does not have the nearest
