@@ -73,7 +73,7 @@ class Compare {
     record.seconds = std::max(seconds(), 1e-9);
     record.pages_read = model->stats().pages_read;
     if (const int status = report(record); status != kDone) return console_.finish(status);
-    const auto lost = pages_lost(model->stats());
+    const auto lost = pages_lost(*model);
     return console_.finish(lost ? console_.fail(arguments_.file.string(), *lost) : kDone);
   }
 

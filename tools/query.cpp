@@ -62,7 +62,7 @@ class QueryRun {
   int run(RowReader<Query>& queries, AnswerOutput& output) {
     form_.shows_range = queries.numbers() > shape_of(arguments_.kind).required;
     int status = answer(queries, output);
-    const auto error = pages_lost(model_.stats(), model_.read_error());
+    const auto error = pages_lost(model_);
     if (error) status = std::max(status, console_.fail(arguments_.file.string(), *error));
     if (trace_ && status == kDone) status = trace_->finish(arguments_, model_, console_);
     if (arguments_.json) console_.note(json_report());

@@ -75,7 +75,7 @@ class Thickness {
     if (measured != kDone) return console_.finish(measured);
     record.seconds = std::max(seconds(), 1e-9);
     if (const int status = report(record); status != kDone) return console_.finish(status);
-    const auto lost = pages_lost(model->stats());
+    const auto lost = pages_lost(*model);
     return console_.finish(lost ? console_.fail(arguments_.file.string(), *lost) : kDone);
   }
 

@@ -123,7 +123,7 @@ int TouchRun::run_scene() {
 
 std::optional<Error> TouchRun::lost() const {
   return arguments_.is_scene ? scene_pages_lost(outcome_.stats.quarantined_pages)
-                             : pages_lost(outcome_.stats);
+                             : pages_lost(outcome_.stats, outcome_.read_error);
 }
 
 }  // namespace

@@ -48,6 +48,7 @@ Result<TouchOutcome> run_real(const TouchArguments& arguments, std::span<const V
   if (!writer) {
     outcome.record = run_touch_session(*probe, tool, path, period, parts_told(*model));
     outcome.stats = model->stats();
+    outcome.read_error = model->read_error();
     return outcome;
   }
   TraceHeader header =
@@ -63,6 +64,7 @@ Result<TouchOutcome> run_real(const TouchArguments& arguments, std::span<const V
   if (outcome.trace_written) outcome.trace_written = recorder.finish(path.size());
   outcome.prefetch = recorder.prefetch();
   outcome.stats = model->stats();
+  outcome.read_error = model->read_error();
   return outcome;
 }
 

@@ -43,7 +43,7 @@ class Trade {
     if (const int status = measure_all(*model); status != kDone) return status;
     progress_.finish();
     if (const int status = report(); status != kDone) return console_.finish(status);
-    const auto lost = pages_lost(model->stats());
+    const auto lost = pages_lost(*model);
     return console_.finish(lost ? fail(*lost) : kDone);
   }
 

@@ -63,4 +63,8 @@ std::optional<Error> pages_lost(const Stats& stats, const std::optional<Error>& 
   return std::nullopt;
 }
 
+std::optional<Error> pages_lost(const Model& model) {
+  return pages_lost(model.stats(), model.read_error());
+}
+
 }  // namespace planetree::tools

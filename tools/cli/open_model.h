@@ -49,6 +49,8 @@ Error too_little_memory(std::uint64_t memory_bytes, std::uint64_t least_bytes);
 /// answers are degraded. Empty if there were none.
 ///
 /// last  Model::read_error(), which tells why pages of a URL did not come
-std::optional<Error> pages_lost(const Stats& stats, const std::optional<Error>& last = {});
+std::optional<Error> pages_lost(const Stats& stats, const std::optional<Error>& last);
+/// The same for all answers of a model so far.
+std::optional<Error> pages_lost(const Model& model);
 
 }  // namespace planetree::tools

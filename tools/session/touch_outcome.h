@@ -25,6 +25,7 @@ struct TouchOutcome {
   TouchRecord record;
   /// Of the model. Of a scene: what SceneStats has too; tables include those of its models.
   Stats stats;
+  std::optional<Error> read_error;  ///< Model::read_error() of the model
   std::optional<PrefetchFigures>
       prefetch;                          ///< what became of prefetched pages, if there is a trace
   Result<void> trace_written;            ///< whether the trace file is complete

@@ -114,7 +114,7 @@ int show_slice(const SliceArguments& arguments, Console& console) {
     console.note(report);
   else
     console.print(report);
-  const auto error = pages_lost(model->stats());
+  const auto error = pages_lost(*model);
   return console.finish(error ? console.fail(file, *error) : kDone);
 }
 

@@ -85,16 +85,16 @@ TEST(ErrorLine, NamesAPositionOnce) {
 
 TEST(PagesLost, ReportsUnreadablePagesBeforeTimeouts) {
   Stats stats;
-  EXPECT_EQ(pages_lost(stats), std::nullopt);
+  EXPECT_EQ(pages_lost(stats, {}), std::nullopt);
   stats.waits_given_up = 3;
   stats.degraded_answers = 5;
-  const auto late = pages_lost(stats);
+  const auto late = pages_lost(stats, {});
   ASSERT_TRUE(late);
   EXPECT_EQ(exit_status(late->code), 3);
   EXPECT_TRUE(
       std::string(late->text).starts_with("3 waits for its pages reached the limit, so 5 "));
   stats.quarantined_pages = 1;
-  const auto unreadable = pages_lost(stats);
+  const auto unreadable = pages_lost(stats, {});
   ASSERT_TRUE(unreadable);
   EXPECT_EQ(exit_status(unreadable->code), 1);
   EXPECT_TRUE(std::string(unreadable->text).starts_with("1 of its pages cannot be read, so 5 "));
