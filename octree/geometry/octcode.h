@@ -60,6 +60,9 @@ constexpr std::uint64_t octcode_of_range(std::uint64_t least, std::uint64_t grea
   return octcode_of_prefix(least, std::min(same, kMortonBits));
 }
 
+/// Returns the Morton code of the first finest cell in an octcode's cell.
+constexpr std::uint64_t morton_of_octcode(std::uint64_t octcode) { return octcode << 5 >> 7; }
+
 /// A cell decoded from an octcode. `x`, `y` and `z` count cells of its level.
 struct Cell {
   unsigned level = 0;
@@ -71,7 +74,7 @@ constexpr Cell cell_of_octcode(std::uint64_t octcode) {
   Cell cell;
   cell.level = static_cast<unsigned>(octcode >> 59);
   cell.within = static_cast<unsigned>(octcode & 3);
-  const std::uint64_t morton = octcode << 5 >> 7;
+  const std::uint64_t morton = morton_of_octcode(octcode);
   const unsigned shift = cell.level > kLevels ? 0 : kLevels - cell.level;
   cell.x = gather_bits(morton) >> shift;
   cell.y = gather_bits(morton >> 1) >> shift;

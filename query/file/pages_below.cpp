@@ -4,14 +4,13 @@
 #include <optional>
 
 #include "octree/geometry/octcode.h"
+#include "octree/geometry/tree_limits.h"
 
 namespace planetree::query {
 namespace {
 
 // Maximum raw bytes of a page with few nodes. One with a node of eight children has 250.
 constexpr std::uint32_t kFewNodesBytes = 512;
-// A node has at most so many children.
-constexpr std::size_t kMaxPages = 8;
 // Levels of cells below that of the page. Cells further below are many.
 constexpr unsigned kLevelsBelow = 2;
 constexpr std::uint64_t kMaxBytes = std::uint64_t{256} << 10;  // stored, of all pages found
@@ -22,7 +21,7 @@ struct Cells {
     const octree::Cell cell = octree::cell_of_octcode(octcode);
     level = std::min(cell.level, octree::kLevels);
     const unsigned bits = std::min(3 * level + cell.within, octree::kMortonBits);
-    least = octcode << 5 >> 7;
+    least = octree::morton_of_octcode(octcode);
     greatest = least | ((std::uint64_t{1} << (octree::kMortonBits - bits)) - 1);
   }
 
@@ -53,7 +52,7 @@ std::size_t find_pages_below(const storage::PageFile& file, std::uint32_t page,
   const auto entry = page < page_end ? file.kept_entry(page) : std::nullopt;
   if (!entry || entry->raw_bytes > kFewNodesBytes) return 0;
   const Cells cells(entry->octcode);
-  found = found.first(std::min(found.size(), kMaxPages));
+  found = found.first(std::min<std::size_t>(found.size(), octree::kFanOut));
   std::size_t count = 0;
   std::uint64_t bytes = 0;
   const unsigned last_level = std::min(cells.level + kLevelsBelow, octree::kLevels);

@@ -67,7 +67,7 @@ PageSizeReplay::Key PageSizeReplay::key_of(const PageAccess& access) const {
   const auto section = static_cast<std::uint8_t>(access.section);
   const unsigned bits =
       3 * static_cast<unsigned>(access.octcode >> 59) + static_cast<unsigned>(access.octcode & 3);
-  const std::uint64_t morton = access.octcode << 5 >> 7;
+  const std::uint64_t morton = octree::morton_of_octcode(access.octcode);
   if (more_bits_ == 0) return {section, bits, morton, access.page};
   const unsigned other = static_cast<unsigned>(
       std::clamp(static_cast<int>(bits) + more_bits_, 0, static_cast<int>(kMortonBits)));
