@@ -15,8 +15,6 @@
 #include "storage/file/header_faults.h"
 #include "storage/file/metadata.h"
 #include "storage/file/page_codec.h"
-#include "storage/http/open_source.h"
-#include "storage/set/member_address.h"
 #include "storage/set/open_model.h"
 #include "tools/check/directory_survey.h"
 
@@ -54,7 +52,7 @@ Result<FileParts> FileParts::open(const std::filesystem::path& path, storage::Fi
                                   const storage::HttpOptions& http) {
   FileParts parts;
   parts.path_ = path;
-  auto source = parts.open_source(calls, http);
+  auto source = storage::open_model_source(path, {http, true}, calls);
   if (!source && source.error().code == ErrorCode::kNotPlanetree) {
     parts.issues_.push_back(Issue::from(IssueCode::kNotPlanetree, source.error()));
     return parts;
@@ -64,15 +62,6 @@ Result<FileParts> FileParts::open(const std::filesystem::path& path, storage::Fi
   parts.actual_bytes_ = parts.file_->size_bytes();
   if (const auto loaded = parts.load(); !loaded) return loaded.error();
   return parts;
-}
-
-Result<std::unique_ptr<storage::ByteSource>> FileParts::open_source(
-    storage::FileCalls& calls, const storage::HttpOptions& http) {
-  if (!storage::is_set_name(path_.native())) return storage::open_source(path_, http, calls);
-  auto set = storage::open_set(path_, {http, true}, calls);
-  if (!set) return set.error();
-  set_ = set->get();
-  return std::unique_ptr<storage::ByteSource>(*std::move(set));
 }
 
 Result<void> FileParts::load() {

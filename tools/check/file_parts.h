@@ -71,7 +71,9 @@ class FileParts {
   std::uint64_t actual_bytes() const { return actual_bytes_; }
   const std::filesystem::path& path() const { return path_; }
   /// The set whose members have the bytes. Null if a file has them.
-  const storage::SetSource* set() const { return set_; }
+  const storage::SetSource* set() const {
+    return dynamic_cast<const storage::SetSource*>(file_.get());
+  }
 
   /// The header. Null if neither header is whole or this program does not know the format version.
   const storage::FileHeader* header() const { return has_header_ ? &header_ : nullptr; }
@@ -145,8 +147,6 @@ class FileParts {
 
  private:
   FileParts() = default;
-  Result<std::unique_ptr<storage::ByteSource>> open_source(storage::FileCalls& calls,
-                                                           const storage::HttpOptions& http);
   Result<void> load();
   Result<void> load_extensions();
   Result<void> load_extension(const storage::ExtensionRecord& record);
@@ -158,7 +158,6 @@ class FileParts {
 
   std::filesystem::path path_;
   std::unique_ptr<storage::ByteSource> file_;
-  const storage::SetSource* set_ = nullptr;  // file_, if that is a set
   std::uint64_t actual_bytes_ = 0;
   bool has_header_ = false;
   storage::FileHeader header_{};
