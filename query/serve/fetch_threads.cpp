@@ -109,7 +109,8 @@ void FetchWorker::take_motion(std::size_t index) noexcept {
     progress.motion.take(motion, clock_());
 }
 
-// Prefetches one position at a time, so that requests need not wait for all of them.
+// Prefetches one position at a time, so that requests need not wait for all of them. A remote model
+// gets the pages of the others by the same requests.
 bool FetchWorker::prefetch_position(std::size_t index) noexcept {
   take_motion(index);
   MotionPrefetch& motion = progress_[index].motion;

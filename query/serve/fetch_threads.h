@@ -38,7 +38,7 @@ class FetchProbe {
   /// options  Wait::kForPages with limited work. Such a query starts from the root, since the
   ///          coherence of this probe does not tell which pages are resident.
   /// ahead    where the probe of the query will be next, at most MotionPrefetch::kPositions. A
-  ///          remote model gets the pages there by the same requests. Others leave them out
+  ///          remote model gets the pages there by the same requests. Others leave them out.
   /// stop     once true, the call gives up before the next missing page
   /// return   number of pages that were not resident and are now
   virtual std::uint32_t fetch_pages(const Vec3& query, const QueryOptions& options,

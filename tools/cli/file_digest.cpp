@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 #include <openssl/evp.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <span>
-#include <vector>
 
 #include "storage/system/file_calls.h"
 #include "storage/system/read_parts.h"
