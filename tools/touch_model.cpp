@@ -26,6 +26,12 @@ OpenOptions options_of(const TouchArguments& arguments) {
   return options;
 }
 
+// Notes what the model tells of the session.
+void set_figures(const Model& model, TouchOutcome& outcome) {
+  outcome.stats = model.stats();
+  outcome.read_error = model.read_error();
+}
+
 /// Runs the session on the real disk, in real time.
 Result<TouchOutcome> run_real(const TouchArguments& arguments, std::span<const Vec3> path,
                               std::optional<TraceWriter>& writer) {
@@ -47,8 +53,7 @@ Result<TouchOutcome> run_real(const TouchArguments& arguments, std::span<const V
   TouchTool tool(PathBox::of(model->info()), arguments.radius);
   if (!writer) {
     outcome.record = run_touch_session(*probe, tool, path, period, parts_told(*model));
-    outcome.stats = model->stats();
-    outcome.read_error = model->read_error();
+    set_figures(*model, outcome);
     return outcome;
   }
   TraceHeader header =
@@ -63,8 +68,7 @@ Result<TouchOutcome> run_real(const TouchArguments& arguments, std::span<const V
   }
   if (outcome.trace_written) outcome.trace_written = recorder.finish(path.size());
   outcome.prefetch = recorder.prefetch();
-  outcome.stats = model->stats();
-  outcome.read_error = model->read_error();
+  set_figures(*model, outcome);
   return outcome;
 }
 
