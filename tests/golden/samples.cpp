@@ -6,17 +6,13 @@
 
 #include "octree/builder/mesh/mesh_reader.h"
 #include "octree/builder/tree_builder.h"
+#include "tests/octree/builder/silent_progress.h"
 #include "tests/storage/system/temporary_directory.h"
 
 namespace planetree::golden {
 namespace {
 
 const std::filesystem::path kFolder = PLANETREE_SOURCE_DIR "/format-spec/v1/samples";
-
-class Silence final : public octree::BuildProgress {
- public:
-  Result<void> progress(octree::BuildPhase, std::uint64_t, std::uint64_t) override { return {}; }
-};
 
 class Collector final : public octree::TriangleSink {
  public:
@@ -115,7 +111,7 @@ std::vector<std::byte> build_bytes(const std::filesystem::path& mesh, std::uint3
   options.layers = layers;
   options.keep = keep;
   options.metadata = metadata;
-  Silence silence;
+  octree::SilentProgress silence;
   const auto report = octree::build_tree(mesh, folder / "built.ptree", options, silence);
   if (!report) throw std::runtime_error(report.error().text);
   return read_file(folder / "built.ptree");

@@ -1,4 +1,5 @@
 #include "tests/oracle/built_model.h"
+#include "tests/octree/builder/silent_progress.h"
 
 #include <cstdio>
 #include <cstdlib>
@@ -9,10 +10,6 @@
 
 namespace planetree::oracle {
 namespace {
-
-class Silent final : public octree::BuildProgress {
-  Result<void> progress(octree::BuildPhase, std::uint64_t, std::uint64_t) override { return {}; }
-};
 
 [[noreturn]] void give_up(const Error& error) {
   std::fprintf(stderr, "oracle: %s\n", error.text);
@@ -57,7 +54,7 @@ BuiltModel::BuiltModel(const std::filesystem::path& mesh, const BuildChoices& ch
 
 void BuiltModel::build(const std::filesystem::path& mesh, const BuildChoices& choices) {
   octree::BuildOptions options;
-  Silent silent;
+  octree::SilentProgress silent;
   octree::BuildSeams seams;
   if (choices.page_bytes < options.page_bytes) {
     // Built as large models are: in several chunks, spilled, and with a mask of several sectors.
@@ -86,7 +83,7 @@ std::string build_failure(std::span<const Corners> triangles,
                           const std::optional<octree::RegionBox>& box) {
   const storage::TemporaryDirectory folder;
   write_ply(folder / "model.ply", triangles);
-  Silent silent;
+  octree::SilentProgress silent;
   octree::BuildOptions options;
   options.box = box;
   const auto report =

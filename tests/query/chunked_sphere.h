@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "tests/octree/builder/build_fixture.h"
+#include "tests/octree/builder/silent_progress.h"
 
 namespace planetree::query {
 
@@ -12,18 +13,13 @@ class ChunkedSphere : public octree::SmallChunks {
  protected:
   explicit ChunkedSphere(unsigned levels, std::uint64_t chunk_triangles = 2000) {
     write(octree::sphere(levels));
-    Silent silent;
+    octree::SilentProgress silent;
     octree::BuildOptions options;
     options.page_bytes = 4096;
     const octree::BuildSeams seams{
         chunk_triangles, octree::kSectorTriangles, {}, storage::FileCalls::real()};
     if (!octree::build_tree(mesh_, output_, options, silent, seams)) std::abort();
   }
-
- private:
-  struct Silent final : octree::BuildProgress {
-    Result<void> progress(octree::BuildPhase, std::uint64_t, std::uint64_t) override { return {}; }
-  };
 };
 
 }  // namespace planetree::query

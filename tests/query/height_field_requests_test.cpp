@@ -6,24 +6,21 @@
 
 #include "planetree/probe.h"
 #include "tests/octree/builder/build_fixture.h"
+#include "tests/octree/builder/silent_progress.h"
 #include "tests/query/fetch_steps.h"
 #include "tests/query/sample_model.h"
 
 namespace planetree::query {
 namespace {
 
-class NoWitness final : public octree::BuildProgress {
-  Result<void> progress(octree::BuildPhase, std::uint64_t, std::uint64_t) override { return {}; }
-};
-
 class HeightFieldRequests : public octree::SmallChunks {
  protected:
   HeightFieldRequests() {
     write(octree::sphere(5));
-    NoWitness witness;
+    octree::SilentProgress silent;
     octree::BuildOptions options;
     options.page_bytes = 4096;
-    if (!octree::build_tree(mesh_, output_, options, witness)) std::abort();
+    if (!octree::build_tree(mesh_, output_, options, silent)) std::abort();
   }
   // Opens with little more memory than opening takes, so that pages are evicted.
   Model open() const {

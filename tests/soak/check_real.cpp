@@ -18,6 +18,7 @@
 #include "octree/builder/tree_builder.h"
 #include "octree/geometry/triangle_distance.h"
 #include "planetree/planetree.h"
+#include "tests/octree/builder/silent_progress.h"
 #include "tests/oracle/brute_force.h"
 #include "tests/oracle/cgal_oracle.h"
 #include "tests/oracle/random.h"
@@ -40,10 +41,6 @@ constexpr std::size_t kTieChecks = 20;   // against every triangle
 constexpr double kAllowedShare = 1e-12;  // maximum error / diagonal
 constexpr std::uint64_t kLargeBudgetBytes = std::uint64_t{4} << 30;
 constexpr std::uint64_t kProgramBytes = std::uint64_t{40} << 20;
-
-class Silent final : public octree::BuildProgress {
-  Result<void> progress(octree::BuildPhase, std::uint64_t, std::uint64_t) override { return {}; }
-};
 
 double diagonal_of(const ModelInfo& info) {
   return std::hypot(info.box_upper.x - info.box_lower.x, info.box_upper.y - info.box_lower.y,
@@ -105,7 +102,7 @@ struct Misses {
 class MeshCheck {
  public:
   explicit MeshCheck(const fs::path& mesh) : mesh_(mesh), tree_(folder_ / "mesh.ptree") {
-    Silent silent;
+    octree::SilentProgress silent;
     need(octree::build_tree(mesh, tree_, {}, silent), mesh.c_str());
     triangles_ = triangles_of(mesh);
     const Model model = need(Model::open(tree_), "open");

@@ -76,7 +76,7 @@ TEST(FileCheckOfChunks, AcceptsFilesBuiltInChunks) {
     octree::BuildOptions options;
     options.page_bytes = 4096;
     options.replace = true;
-    NoProgress progress;
+    octree::SilentProgress progress;
     const auto report =
         octree::build_tree(folder / name, folder / "tree.ptree", options, progress, {150, 200, {}});
     ASSERT_TRUE(report) << report.error().text;

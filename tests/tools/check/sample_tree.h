@@ -14,6 +14,7 @@
 #include "storage/file/page_codec.h"
 #include "storage/file/page_file.h"
 #include "storage/file/page_writer.h"
+#include "tests/octree/builder/silent_progress.h"
 #include "tests/octree/page/raw_mask_page.h"
 #include "tests/storage/file/file_image.h"
 #include "tools/report/stream_rows.h"
@@ -37,18 +38,13 @@ inline void write_mesh(const std::filesystem::path& path, unsigned side,
   mesh << more;
 }
 
-class NoProgress final : public octree::BuildProgress {
- public:
-  Result<void> progress(octree::BuildPhase, std::uint64_t, std::uint64_t) override { return {}; }
-};
-
 /// Builds a tree with pages of 4096 bytes.
 inline void build_sample(const std::filesystem::path& mesh, const std::filesystem::path& tree) {
   octree::BuildOptions options;
   options.page_bytes = 4096;
   options.replace = true;
   options.threads = 1;
-  NoProgress progress;
+  octree::SilentProgress progress;
   ASSERT_TRUE(octree::build_tree(mesh, tree, options, progress));
 }
 

@@ -5,14 +5,10 @@
 
 #include "octree/builder/field/built_field.h"
 #include "tests/octree/builder/chunked_tree.h"
+#include "tests/octree/builder/silent_progress.h"
 #include "tests/octree/support/sample_tree.h"
 
 namespace planetree::octree {
-
-class QuietProgress final : public BuildProgress {
- public:
-  Result<void> progress(BuildPhase, std::uint64_t, std::uint64_t) override { return {}; }
-};
 
 /// A built field, with the triangles that it is of, in pages of 4096 bytes.
 struct SampleField {
@@ -22,7 +18,7 @@ struct SampleField {
 
   explicit SampleField(const Soup& soup, const Region& region = {})
       : tree(std::make_unique<ChunkedTree>(soup, 2000, page_bytes, spill_file())) {
-    QuietProgress progress;
+    SilentProgress progress;
     auto built = BuiltField::build(tree->tree.get(), region, soup.size(), page_bytes, progress);
     if (!built) std::abort();
     field = *std::move(built);

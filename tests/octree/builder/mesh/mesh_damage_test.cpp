@@ -8,6 +8,7 @@
 
 #include "octree/builder/tree_builder.h"
 #include "tests/octree/builder/mesh/mesh_formats.h"
+#include "tests/octree/builder/silent_progress.h"
 #include "tests/storage/system/temporary_directory.h"
 
 namespace planetree::octree {
@@ -27,11 +28,6 @@ PlainMesh small_mesh(const MeshFormat& format) {
 Reading read_as(const MeshFormat& format, const PlainMesh& mesh) {
   return read_bytes(format.write(mesh, {}), format.extension);
 }
-
-class SilentProgress final : public BuildProgress {
- public:
-  Result<void> progress(BuildPhase, std::uint64_t, std::uint64_t) override { return {}; }
-};
 
 /// Builds from `bytes`. A refused build must leave no file behind.
 Result<BuildReport> build_bytes(const MeshFormat& format, std::string_view bytes) {
