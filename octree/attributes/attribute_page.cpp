@@ -17,14 +17,14 @@ void join(std::span<const std::byte> split, std::size_t count, std::size_t eleme
 /// Writes the links of all triangles to `links`. Returns null, or a fault.
 const char* decode_links(ByteSplit<std::uint32_t> pages, ByteSplit<std::uint16_t> numbers,
                          const PageInfo& info, std::byte* links) {
-  const LinkFormat format(info.page_bytes);
+  const LinkFormat format = LinkFormat::numbered(info.page_bytes);
   for (std::size_t i = 0; i < pages.size(); ++i) {
     const StoredLink block = {pages[i], numbers[i]};
     std::uint32_t link = kNoLink;
     if (block != kNoStoredLink) {
       if (block.page >= info.tree_pages || block.record >= max_page_blocks(info.page_bytes))
         return "a link does not lead to a block of the tree";
-      link = format.make_numbered(block);
+      link = format.make_block(block);
     }
     std::memcpy(links + i * sizeof link, &link, sizeof link);
   }

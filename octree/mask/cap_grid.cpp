@@ -8,6 +8,7 @@
 #include "octree/mask/cap_rim.h"
 #include "octree/page/moments.h"
 #include "octree/traversal/bounds.h"
+#include "octree/traversal/link_resolver.h"
 #include "octree/winding/winding_number.h"
 
 namespace planetree::octree {
@@ -96,7 +97,7 @@ class CapGrid::AreaFiller {
   // Whether looking a record up has to fetch its page.
   bool is_brought(std::uint32_t link) const {
     return !records_.is_in_current_page(link) && pages_.peek &&
-           !pages_.peek(pages_.context, LinkFormat(caps_.page_bytes).page(link));
+           !pages_.peek(pages_.context, records_.page_of(link));
   }
 
   bool add_block(const BlockView& block) {

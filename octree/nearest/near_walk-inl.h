@@ -17,6 +17,7 @@
 #include "octree/nearest/near_triangles.h"
 #include "octree/traversal/bounds.h"
 #include "octree/traversal/frontier.h"
+#include "octree/traversal/link_resolver.h"
 #include "octree/traversal/node_kernels-inl.h"
 #include "octree/traversal/segment_filter-inl.h"
 #include "octree/traversal/triangle_filter-inl.h"

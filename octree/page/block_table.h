@@ -24,6 +24,11 @@ class BlockTable {
     return slot;
   }
 
+  /// Prefetches what slot() reads. No answer depends on it.
+  void prefetch(std::uint32_t number) const {
+    __builtin_prefetch(frame_ + kSlotBytes + number * sizeof(std::uint16_t));
+  }
+
   /// Returns the number of the block that begins in a slot; none if no block does.
   std::optional<std::uint16_t> number_at(std::uint32_t at) const {
     std::uint16_t first = 0;

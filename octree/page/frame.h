@@ -134,11 +134,12 @@ struct alignas(kSlotBytes) BlockHeader {
 static_assert(sizeof(BlockHeader) == kSlotBytes);
 static_assert(offsetof(BlockHeader, packed_corners) == 40);
 
-/// Layout of the records of one file, which follows from three fields of the file's header.
+/// Layout of the records of one file, which follows from the file's header.
 struct BlockShape {
   bool float64 = false;
   bool wide_ids = false;
   bool moments = false;  ///< moments follow each node: the surface is not watertight
+  LinkTarget links = LinkTarget::kSlot;  ///< what the links of nodes lead to
 
   constexpr unsigned node_slots() const { return kNodeSlots + (moments ? kMomentSlots : 0); }
 
@@ -183,8 +184,10 @@ constexpr std::uint32_t max_page_nodes(std::uint32_t page_bytes, const BlockShap
 /// Returns the link to a node whose number is below max_page_nodes().
 constexpr std::uint32_t node_link(std::uint32_t page_bytes, const BlockShape& shape,
                                   StoredLink node) {
-  return LinkFormat(page_bytes)
-      .make(false, node.page, frame_head_slots(page_bytes) + node.record * shape.node_slots());
+  const LinkFormat links(page_bytes, shape.links);
+  if (shape.links == LinkTarget::kNumber) return links.make(false, node.page, node.record);
+  return links.make(false, node.page,
+                    frame_head_slots(page_bytes) + node.record * shape.node_slots());
 }
 
 /// Returns the decoded box of one of a node's children.

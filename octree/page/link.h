@@ -18,35 +18,60 @@ struct StoredLink {
   auto operator<=>(const StoredLink&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
+/// What a link has behind the page.
+enum class LinkTarget : std::uint8_t {
+  kSlot,    ///< the record's slot: the record is found at once
+  kNumber,  ///< the record's number in its page: fewer bits, so that there may be more pages
+};
+
 /// Layout of a link, the 32-bit address of a child: [leaf 1][page 31 - s][slot s], where s is
-/// log2(page bytes / 64). A *numbered* link has the block's number in its page in place of the
-/// slot. Lists of the mask and attribute pages have numbered links.
+/// log2(page bytes / 64), or [leaf 1][page 31 - n][number n], where n is log2(page bytes / 256).
+/// Slots number the nodes of most trees, and numbers those of trees with too many pages. Lists of
+/// the mask and attribute pages have numbers.
 class LinkFormat {
  public:
-  explicit constexpr LinkFormat(std::uint32_t page_bytes)
-      : slot_bits_(static_cast<unsigned>(std::countr_zero(page_bytes)) - 6) {}
+  constexpr LinkFormat(std::uint32_t page_bytes, LinkTarget target)
+      : record_bits_(static_cast<unsigned>(std::countr_zero(page_bytes)) -
+                     (target == LinkTarget::kSlot ? kSlotShift : kNumberShift)),
+        target_(target) {}
+  /// The format of links with numbers.
+  static constexpr LinkFormat numbered(std::uint32_t page_bytes) {
+    return {page_bytes, LinkTarget::kNumber};
+  }
+  /// The format for a file whose trees have so many pages: slots if they suffice.
+  static constexpr LinkFormat of_pages(std::uint32_t page_bytes, std::uint32_t pages) {
+    const LinkFormat slots(page_bytes, LinkTarget::kSlot);
+    return pages <= slots.max_pages() ? slots : numbered(page_bytes);
+  }
 
   static constexpr std::uint32_t kLeafBit = std::uint32_t{1} << 31;
   static constexpr bool is_leaf(std::uint32_t link) { return (link & kLeafBit) != 0; }
+  constexpr LinkTarget target() const { return target_; }
   constexpr std::uint32_t page(std::uint32_t link) const {
-    return (link & ~kLeafBit) >> slot_bits_;
+    return (link & ~kLeafBit) >> record_bits_;
   }
-  constexpr std::uint32_t slot(std::uint32_t link) const { return link & slot_mask(); }
-  constexpr std::uint32_t make(bool leaf, std::uint32_t page, std::uint32_t slot) const {
-    return (leaf ? kLeafBit : 0) | page << slot_bits_ | slot;
+  /// Returns the slot or the number, as target() says.
+  constexpr std::uint32_t record(std::uint32_t link) const {
+    return link & ((std::uint32_t{1} << record_bits_) - 1);
   }
-  /// Returns the block's number in its page of a numbered link.
-  constexpr std::uint32_t number(std::uint32_t numbered) const { return slot(numbered); }
-  /// Returns the numbered link to a block.
-  constexpr std::uint32_t make_numbered(StoredLink block) const {
+  /// Returns a link to a slot or a number, as target() says.
+  constexpr std::uint32_t make(bool leaf, std::uint32_t page, std::uint32_t record) const {
+    return (leaf ? kLeafBit : 0) | page << record_bits_ | record;
+  }
+  /// Returns the link to a block. Its target is a number.
+  constexpr std::uint32_t make_block(StoredLink block) const {
     return make(true, block.page, block.record);
   }
-  /// Returns how many pages a link can tell apart.
-  constexpr std::uint32_t max_pages() const { return std::uint32_t{1} << (31 - slot_bits_); }
+  /// Returns how many pages a link can tell apart. No link has all bits.
+  constexpr std::uint32_t max_pages() const {
+    return (std::uint32_t{1} << (31 - record_bits_)) - (target_ == LinkTarget::kNumber ? 1 : 0);
+  }
 
  private:
-  constexpr std::uint32_t slot_mask() const { return (std::uint32_t{1} << slot_bits_) - 1; }
-  unsigned slot_bits_;
+  // The smallest block has 256 bytes, and nodes have more.
+  static constexpr unsigned kSlotShift = 6, kNumberShift = 8;
+  unsigned record_bits_;
+  LinkTarget target_;
 };
 
 /// Number of slots of the smallest block: its head, and a row for each coordinate.
@@ -65,9 +90,10 @@ constexpr unsigned frame_head_slots(std::uint32_t page_bytes) {
 
 /// Returns the link to the root of a tree, which is record 0 of the tree's first page: a node, or a
 /// block if the tree has no node.
-constexpr std::uint32_t root_link_of(std::uint32_t page_bytes, std::uint32_t first_page,
-                                     std::uint64_t node_count) {
-  return LinkFormat(page_bytes).make(node_count == 0, first_page, frame_head_slots(page_bytes));
+constexpr std::uint32_t root_link_of(std::uint32_t page_bytes, LinkTarget target,
+                                     std::uint32_t first_page, std::uint64_t node_count) {
+  const std::uint32_t record = target == LinkTarget::kSlot ? frame_head_slots(page_bytes) : 0;
+  return LinkFormat(page_bytes, target).make(node_count == 0, first_page, record);
 }
 
 }  // namespace planetree::octree

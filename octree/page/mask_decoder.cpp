@@ -19,7 +19,7 @@ namespace {
 class MaskDecoder {
  public:
   MaskDecoder(const PageInfo& info, std::span<std::byte> frame)
-      : info_(info), links_(info.page_bytes), block_links_(info.page_bytes), frame_(frame.data()) {}
+      : info_(info), links_(info.page_bytes), block_links_(LinkFormat::numbered(info.page_bytes)), frame_(frame.data()) {}
 
   const char* decode(std::span<const std::byte> raw) {
     if (const char* fault = streams_.read(raw, info_.shape.float64)) return fault;
@@ -260,7 +260,7 @@ const char* MaskDecoder::decode_list(std::byte* octants, std::byte* links, unsig
   for (unsigned i = 0; i < count; ++i) {
     const std::uint8_t touched = all_octants[first + i];
     const StoredLink block = {all_pages[first + i], all_numbers[first + i]};
-    const std::uint32_t link = format.make_numbered(block);
+    const std::uint32_t link = format.make_block(block);
     all_touch &= touched != 0;
     all_lead &= block.page < page_count;
     all_lead &= block.record < max_blocks;

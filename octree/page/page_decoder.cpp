@@ -25,7 +25,7 @@ struct FramePlan {
 class PageDecoder {
  public:
   PageDecoder(const PageInfo& info, std::span<std::byte> frame)
-      : info_(info), links_(info.page_bytes), frame_(frame.data()) {}
+      : info_(info), links_(info.page_bytes, info.shape.links), frame_(frame.data()) {}
 
   const char* decode(std::span<const std::byte> raw) {
     if (const char* fault = streams_.read(raw, info_.shape)) return fault;
@@ -63,7 +63,8 @@ class PageDecoder {
   }
 
   const PageInfo& info_;
-  LinkFormat links_;
+  const LinkFormat links_;
+  const bool to_slots_ = links_.target() == LinkTarget::kSlot;
   std::byte* frame_;
   RawStreams streams_;
   FramePlan plan_;
@@ -241,8 +242,8 @@ const char* PageDecoder::decode_moments(Node& parent, std::size_t child) {
 const char* PageDecoder::link_to_node(Node& parent, std::size_t child) {
   if (next_node_ >= streams_.head.node_count) return "its children do not add up";
   if (streams_.heights[next_node_] >= parent.height) return "a node is higher than its parent";
-  const std::size_t slot = node_slot(next_node_);
-  parent.link[child] = links_.make(false, info_.page_number, static_cast<std::uint32_t>(slot));
+  const std::size_t record = to_slots_ ? node_slot(next_node_) : next_node_;
+  parent.link[child] = links_.make(false, info_.page_number, static_cast<std::uint32_t>(record));
   node(next_node_)->box = child_box(parent, child);
   ++next_node_;
   return nullptr;
@@ -250,8 +251,8 @@ const char* PageDecoder::link_to_node(Node& parent, std::size_t child) {
 
 const char* PageDecoder::link_to_block(Node& parent, std::size_t child) {
   if (next_block_ >= streams_.head.block_count) return "its children do not add up";
-  parent.link[child] =
-      links_.make(true, info_.page_number, static_cast<std::uint32_t>(next_block_slot_));
+  const std::size_t record = to_slots_ ? next_block_slot_ : next_block_;
+  parent.link[child] = links_.make(true, info_.page_number, static_cast<std::uint32_t>(record));
   next_block_slot_ += block_slots(next_block_);
   ++next_block_;
   return nullptr;

@@ -4,15 +4,12 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "octree/geometry/error_bounds.h"
 #include "octree/geometry/triangle_distance.h"
-#include "octree/page/block_table.h"
 #include "octree/page/frame.h"
 
-/// A tree as traversals see it: the data of its header, access to its pages, and the records that
-/// links lead to. FrameTable and FrameReleaseHook are the interface between the cache, which holds
+/// A tree as traversals see it: the data of its header, and access to its pages. FrameTable and FrameReleaseHook are the interface between the cache, which holds
 /// frames, and readers that keep or prefetch pointers to them.
 namespace planetree::octree {
 
@@ -129,145 +126,6 @@ struct TraversalStats {
   std::uint64_t triangles = 0;  ///< evaluated in double
   std::uint64_t page_switches = 0;
   std::uint64_t units = 0;  ///< units of work, see WorkLimit
-};
-
-/// Finds the record that a link leads to. Looks a page up only when it differs from the last one.
-class LinkResolver {
- public:
-  LinkResolver(const TreeInfo& tree, const PageReader& pages)
-      : links_(tree.page_bytes),
-        node_slots_(tree.shape.node_slots()),
-        max_blocks_(max_page_blocks(tree.page_bytes)),
-        pages_(pages) {}
-
-  /// A number that no page has.
-  static constexpr std::uint32_t kNoPage = ~std::uint32_t{0};
-
-  /// Returns the node or block that `link` leads to, valid until the next call; null if its page is
-  /// not available or has no such record.
-  ///
-  /// from  page of the node with the link, as page() returned it; kNoPage if not known
-  const std::byte* find(std::uint32_t link, TraversalStats& work, std::uint32_t from = kNoPage) {
-    const std::uint32_t page = links_.page(link);
-    const std::uint32_t slot = links_.slot(link);
-    switch_to_page_of(link, work);
-    // Links within a page were checked when it was decoded. Links between pages can be checked only
-    // when both pages are decoded.
-    if (!frame_ || (page != from && !leads_to_record(link, slot))) return nullptr;
-    return frame_ + slot * kSlotBytes;
-  }
-  /// Returns the block that a numbered link leads to, as find() does. Any link is allowed.
-  const std::byte* find_numbered(std::uint32_t link, TraversalStats& work) {
-    const std::uint32_t number = links_.number(link);
-    if (!LinkFormat::is_leaf(link) || number >= max_blocks_) return nullptr;
-    switch_to_page_of(link, work);
-    const std::uint32_t slot = frame_ ? BlockTable(frame_).slot(number) : 0;
-    return slot == 0 ? nullptr : frame_ + slot * kSlotBytes;
-  }
-  /// Returns whether the record is in the page that was found last.
-  bool is_in_current_page(std::uint32_t link) const {
-    return links_.page(link) == page_number_ && frame_;
-  }
-  /// Returns whether the page of the last link is available.
-  bool has_page() const { return frame_ != nullptr; }
-  /// Notes that the search goes on without the record found last, of this squared bound. Returns
-  /// the bound.
-  float skip(float bound) const {
-    pages_.skip(bound);
-    return bound;
-  }
-  /// Returns the page of the last record.
-  std::uint32_t page() const { return page_number_; }
-
-  /// A child, given by its node and its index there.
-  struct Child {
-    const Node* node = nullptr;
-    unsigned index = 0;
-  };
-  /// Searches the nodes of a page for the child with `link`. Returns no node if the page is not
-  /// resident or has no such child.
-  Child find_parent(std::uint32_t link, std::uint32_t page) const {
-    const std::byte* frame =
-        pages_.peek && page != kNoPage ? pages_.peek(pages_.context, page) : nullptr;
-    if (!frame) return {};
-    const auto& header = *reinterpret_cast<const FrameHeader*>(frame);
-    for (unsigned i = 0; i < header.node_count; ++i) {
-      const unsigned slot = header.first_node_slot + i * node_slots_;
-      const auto* node = reinterpret_cast<const Node*>(frame + slot * kSlotBytes);
-      for (unsigned index = 0; index < node->child_count; ++index)
-        if (node->link[index] == link) return {node, index};
-    }
-    return {};
-  }
-
-  /// Prefetches the first cache lines of a record if its page is resident. No answer depends on it.
-  /// No branch depends on the link, because it would be mispredicted.
-  ///
-  /// kNodeLines  lines of a node to prefetch; by default those that queries nearby read
-  template <std::size_t kNodeLines = kNearNodeSlots>
-  [[gnu::always_inline]] void prefetch(std::uint32_t link) const {
-    if (!pages_.frames.cells) return;
-    const std::byte* frame = pages_.frames.frame_of(links_.page(link));
-    const std::uint32_t slot = links_.slot(link);
-    const std::size_t leaf = link >> 31;
-    const std::byte* record = frame + slot * kSlotBytes;
-#pragma GCC unroll 8
-    for (std::size_t i = 0; i < kNodeLines; ++i) __builtin_prefetch(record + i * kSlotBytes);
-    // For a node, the remaining prefetches repeat its last line.
-    const std::byte* last = record + (kNodeLines - 1) * kSlotBytes;
-#pragma GCC unroll 8
-    for (std::size_t i = kNodeLines; i < kBlockLines; ++i)
-      __builtin_prefetch(last += leaf * kSlotBytes);
-  }
-
-  /// Prefetches the blocks that numbered links lead to, if their pages are resident. The links are
-  /// those of a mask, whose pages exist. No answer depends on it.
-  void prefetch_numbered(std::span<const std::uint32_t> links) const {
-    if (!pages_.frames.cells || !pages_.peek) return;
-    for (const std::uint32_t link : links)
-      __builtin_prefetch(pages_.frames.frame_of(links_.page(link)) + kSlotBytes +
-                         links_.number(link) * sizeof(std::uint16_t));
-    std::uint32_t page = kNoPage;
-    const std::byte* frame = nullptr;
-    for (const std::uint32_t link : links) {
-      if (links_.page(link) != page) {
-        page = links_.page(link);
-        frame = pages_.peek(pages_.context, page);
-      }
-      if (!frame) continue;
-      const std::byte* block = frame + BlockTable(frame).slot(links_.number(link)) * kSlotBytes;
-#pragma GCC unroll 4
-      for (std::size_t i = 0; i < kBlockLines; ++i) __builtin_prefetch(block + i * kSlotBytes);
-    }
-  }
-
- private:
-  static constexpr std::size_t kBlockLines = 4;  // covers all of most blocks
-
-  void switch_to_page_of(std::uint32_t link, TraversalStats& work) {
-    if (is_in_current_page(link)) return;
-    ++work.page_switches;
-    page_number_ = links_.page(link);
-    frame_ = pages_.page(pages_.context, page_number_);
-  }
-  bool leads_to_record(std::uint32_t link, std::uint32_t slot) const {
-    const auto& header = *reinterpret_cast<const FrameHeader*>(frame_);
-    // Only the root of a tree may be a block. Links that a page had to its own blocks are right.
-    if (LinkFormat::is_leaf(link)) return slot >= header.first_block_slot;
-    if (slot < header.first_node_slot) return false;
-    const std::uint32_t offset = slot - header.first_node_slot;
-    // Constant divisors: a division by node_slots_ would take as long as the node's bounds.
-    const bool aligned = node_slots_ == kNodeSlots ? offset % kNodeSlots == 0
-                                                   : offset % (kNodeSlots + kMomentSlots) == 0;
-    return aligned && offset < header.node_count * node_slots_;
-  }
-
-  const LinkFormat links_;
-  const unsigned node_slots_;
-  const std::uint32_t max_blocks_;
-  const PageReader& pages_;
-  std::uint32_t page_number_ = kNoPage;
-  const std::byte* frame_ = nullptr;
 };
 
 }  // namespace planetree::octree

@@ -13,6 +13,7 @@
 #include "octree/geometry/work_limit.h"
 #include "octree/traversal/segment_filter-inl.h"
 #include "octree/traversal/segment_kernels-inl.h"
+#include "octree/traversal/link_resolver.h"
 #include "octree/traversal/tree_view.h"
 #include "octree/traversal/tree_walk.h"
 #include "octree/winding/crossing_kernels-inl.h"
@@ -132,7 +133,7 @@ Crossings count_in_blocks_on_target(const TreeInfo& tree, const PerturbedSegment
   WorkLimit limit(work.units, max_work);
   if (!limit.take(blocks.size())) return {.complete = false};
   LinkResolver records(tree, pages);
-  const LinkFormat links(tree.page_bytes);
+  const LinkFormat links = LinkFormat::numbered(tree.page_bytes);
   records.prefetch_numbered(blocks);
   BlockCrossings crossings(tree, segment, limit, work);
   bool complete = true;

@@ -12,6 +12,7 @@
 #include "octree/geometry/strict_math.h"
 #include "octree/geometry/work_limit.h"
 #include "octree/page/frame.h"
+#include "octree/traversal/link_resolver.h"
 #include "octree/traversal/tree_view.h"
 #include "octree/winding/block_share.h"
 #include "octree/winding/multipole.h"

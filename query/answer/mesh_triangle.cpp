@@ -3,6 +3,8 @@
 #include <cinttypes>
 #include <optional>
 
+#include "octree/traversal/link_resolver.h"
+
 namespace planetree::query {
 namespace {
 
@@ -52,7 +54,7 @@ Result<MeshTriangle> find_mesh_triangle(const ModelGeometry& model, const octree
   octree::LinkResolver records(model.tree, pages);
   octree::TraversalStats work;
   const std::byte* const record = records.find_numbered(link, work);
-  const std::uint32_t tree_page = octree::LinkFormat(model.tree.page_bytes).page(link);
+  const std::uint32_t tree_page = octree::LinkFormat::numbered(model.tree.page_bytes).page(link);
   if (!record && !records.has_page()) return unreadable(tree_page);
   if (record) {
     const octree::BlockView block(record, model.tree.shape);

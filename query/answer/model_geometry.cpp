@@ -14,8 +14,9 @@ octree::TreeInfo tree_info(const storage::FileHeader& header, const Scale& scale
   const storage::ModelRecord& model = header.model;
   octree::TreeInfo tree;
   tree.page_bytes = header.page_bytes;
-  tree.root_link = octree::root_link_of(header.page_bytes, 0, model.node_count);
-  tree.shape = block_shape(model);
+  tree.shape = block_shape(header);
+  tree.root_link =
+      octree::root_link_of(header.page_bytes, tree.shape.links, 0, model.node_count);
   tree.record_count = model.node_count + model.block_count;
   tree.box_lower = point_in_frame(scale, model.box_lower);
   tree.box_upper = point_in_frame(scale, model.box_upper);
@@ -31,9 +32,9 @@ octree::TreeInfo tree_info(const storage::FileHeader& header, const Scale& scale
 octree::TreeInfo cap_info(const storage::FileHeader& header, const octree::TreeInfo& surface) {
   octree::TreeInfo caps = surface;
   caps.first_page = header.first_cap_page();
-  caps.root_link =
-      octree::root_link_of(header.page_bytes, caps.first_page, header.model.cap_node_count);
-  caps.shape = cap_shape(header.model);
+  caps.shape = cap_shape(header);
+  caps.root_link = octree::root_link_of(header.page_bytes, caps.shape.links, caps.first_page,
+                                        header.model.cap_node_count);
   caps.record_count = header.model.cap_node_count + header.model.cap_block_count;
   return caps;
 }

@@ -14,15 +14,16 @@ static_assert(storage::kMaxFieldPoints == octree::FieldShape::kMaxPoints);
 static_assert(storage::kMinPageBytes / storage::kFieldPointShare ==
               octree::points_per_field_page(storage::kMinPageBytes));
 
-octree::BlockShape block_shape(const storage::ModelRecord& model) noexcept {
+octree::BlockShape block_shape(const storage::FileHeader& header) noexcept {
   octree::BlockShape shape;
-  shape.float64 = model.vertex_kind == storage::VertexKind::kFloat64;
-  shape.wide_ids = model.triangle_id_bytes == 8;
+  shape.float64 = header.model.vertex_kind == storage::VertexKind::kFloat64;
+  shape.wide_ids = header.model.triangle_id_bytes == 8;
+  shape.links = octree::LinkFormat::of_pages(header.page_bytes, header.first_field_page()).target();
   return shape;
 }
 
-octree::BlockShape cap_shape(const storage::ModelRecord& model) noexcept {
-  octree::BlockShape shape = block_shape(model);
+octree::BlockShape cap_shape(const storage::FileHeader& header) noexcept {
+  octree::BlockShape shape = block_shape(header);
   shape.moments = true;
   return shape;
 }
@@ -78,16 +79,15 @@ octree::PageInfo page_info(const storage::FileHeader& header, const storage::Pag
   info.first_page = starts[section];
   info.page_count = starts[section + 1] - starts[section];
   info.tree_pages = section == kAttributes ? header.first_cap_page() : header.first_field_page();
-  info.shape = section == kCaps ? cap_shape(header.model) : block_shape(header.model);
+  info.shape = section == kCaps ? cap_shape(header) : block_shape(header);
   info.page_number = page;
   info.octcode = entry.octcode;
   return info;
 }
 
-Result<void> decode_frame(const storage::FileHeader& header, const storage::PageEntry& entry,
-                          std::uint32_t page, std::span<const std::byte> raw,
-                          std::span<std::byte> frame) noexcept {
-  const octree::PageInfo info = page_info(header, entry, page);
+Result<void> decode_frame(const storage::FileHeader& header, const octree::PageInfo& info,
+                          std::span<const std::byte> raw, std::span<std::byte> frame) noexcept {
+  const std::uint32_t page = info.page_number;
   if (page >= header.first_mask_page()) return octree::decode_mask_page(raw, info, frame);
   if (page < header.first_field_page()) return octree::decode_page(raw, info, frame);
   if (page >= header.first_attribute_page())

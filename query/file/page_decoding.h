@@ -14,8 +14,8 @@
 namespace planetree::query {
 
 /// Returns the layout of the nodes and blocks of a file's surface, and of its caps.
-octree::BlockShape block_shape(const storage::ModelRecord& model) noexcept;
-octree::BlockShape cap_shape(const storage::ModelRecord& model) noexcept;
+octree::BlockShape block_shape(const storage::FileHeader& header) noexcept;
+octree::BlockShape cap_shape(const storage::FileHeader& header) noexcept;
 
 /// Returns the grid of a file's coarse field; without points if it has none.
 octree::FieldShape field_shape(const storage::ModelRecord& model) noexcept;
@@ -30,20 +30,20 @@ octree::AttributeShape attribute_shape(const storage::ModelRecord& model) noexce
 std::uint32_t attribute_triangles(const storage::FileHeader& header, std::uint32_t page) noexcept;
 
 /// Returns what decoding a page needs.
+///
+/// page  page number, below header.page_count
 octree::PageInfo page_info(const storage::FileHeader& header, const storage::PageEntry& entry,
                            std::uint32_t page) noexcept;
 
 /// Decodes a page of any kind into its frame.
 ///
-/// entry   entry of the page in the directory
-/// page    page number, below header.page_count
+/// info    page_info() of the page; the caller may choose what the links of a tree lead to
 /// raw     raw bytes of the page; any bytes are allowed
 /// frame   header.page_bytes bytes, aligned to 64 bytes; undefined after an error
 /// errors  kDamaged: see octree/page/page_decoder.h, octree/field/field_page.h and
 ///         octree/attributes/attribute_page.h
-Result<void> decode_frame(const storage::FileHeader& header, const storage::PageEntry& entry,
-                          std::uint32_t page, std::span<const std::byte> raw,
-                          std::span<std::byte> frame) noexcept;
+Result<void> decode_frame(const storage::FileHeader& header, const octree::PageInfo& info,
+                          std::span<const std::byte> raw, std::span<std::byte> frame) noexcept;
 
 /// Returns whether a page has links to other pages.
 ///

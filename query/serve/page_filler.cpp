@@ -93,7 +93,8 @@ Result<cache::FillResult> PageFiller::fill_frame(const storage::PageFile& file, 
     if (!*read) return cache::FillResult::kWouldBlock;
   }
   const std::span<std::byte> frame = request.frame.first(header.page_bytes);
-  if (const auto decoded = decode_frame(header, entry, page, raw, frame); !decoded)
+  if (const auto decoded = decode_frame(header, page_info(header, entry, page), raw, frame);
+      !decoded)
     return decoded.error();
   return leads_to_pages(header, page, frame) ? cache::FillResult::kFilledUpper
                                              : cache::FillResult::kFilled;

@@ -263,9 +263,15 @@ std::optional<octree::AttributePageHead> FileParts::attribute_head() const {
   return head;
 }
 
+octree::PageInfo FileParts::info_of_page(const storage::PageEntry& entry) const {
+  octree::PageInfo info = query::page_info(header_, entry, page_);
+  info.shape.links = links().target();
+  return info;
+}
+
 std::optional<Issue> FileParts::decode_page() {
   const storage::PageEntry& entry = entries_[page_];
-  const auto decoded = query::decode_frame(header_, entry, page_, raw_, frame_.span());
+  const auto decoded = query::decode_frame(header_, info_of_page(entry), raw_, frame_.span());
   if (decoded) return {};
   return page_issue(IssueCode::kPageStructure, page_, entry.offset, decoded.error().text);
 }

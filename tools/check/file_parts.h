@@ -107,12 +107,16 @@ class FileParts {
   /// Layout of the page read last: of the surface or, if it is a cap page, of the caps.
   octree::BlockShape shape() const {
     const bool caps = page_ >= first_cap_page() && page_ < first_field_page();
-    return caps ? query::cap_shape(header_.model) : query::block_shape(header_.model);
+    octree::BlockShape shape = caps ? query::cap_shape(header_) : query::block_shape(header_);
+    shape.links = links().target();
+    return shape;
   }
+  /// Format of the links of nodes. They have numbers of records, whatever their file's links have.
+  octree::LinkFormat links() const { return octree::LinkFormat::numbered(header_.page_bytes); }
 
   /// Link to the root of the surface's tree.
   std::uint32_t root_link() const {
-    return octree::root_link_of(header_.page_bytes, 0, header_.model.node_count);
+    return octree::root_link_of(header_.page_bytes, links().target(), 0, header_.model.node_count);
   }
 
   /// Reads a page's stored bytes, checks the hash and decompresses them. Empty if sound.
@@ -147,6 +151,8 @@ class FileParts {
 
  private:
   FileParts() = default;
+
+  octree::PageInfo info_of_page(const storage::PageEntry& entry) const;
   Result<void> load();
   Result<void> load_extensions();
   Result<void> load_extension(const storage::ExtensionRecord& record);

@@ -3,13 +3,14 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "octree/page/block_table.h"
 #include "octree/page/frame.h"
 #include "octree/page/moments.h"
 
 namespace planetree::tools {
 
-/// The records of a decoded distance page in their order. Roots of subtrees come first, among the
-/// nodes and among the blocks. `frame` must outlive this.
+/// The records of a distance page that FileParts decoded, by their numbers. Roots of subtrees come
+/// first, among the nodes and among the blocks. `frame` must outlive this.
 class FrameView {
  public:
   FrameView(const std::byte* frame, const octree::BlockShape& shape)
@@ -21,13 +22,8 @@ class FrameView {
 
   std::uint32_t node_count() const { return header().node_count; }
   const octree::Node& node(std::uint32_t index) const {
-    return *reinterpret_cast<const octree::Node*>(at(node_slot(index)));
-  }
-  std::uint32_t node_slot(std::uint32_t index) const {
-    return header().first_node_slot + shape_.node_slots() * index;
-  }
-  std::uint32_t node_at_slot(std::uint32_t slot) const {
-    return (slot - header().first_node_slot) / shape_.node_slots();
+    const std::uint32_t slot = header().first_node_slot + shape_.node_slots() * index;
+    return *reinterpret_cast<const octree::Node*>(at(slot));
   }
 
   /// Moments of a child; zeros in a file without moments.
@@ -35,15 +31,14 @@ class FrameView {
     return shape_.moments ? octree::NodeMoments::of(node).child(child) : octree::Moments();
   }
 
-  octree::BlockView block(std::uint32_t slot) const { return {at(slot), shape_}; }
-  /// Calls visit(index, slot) for every block.
+  std::uint32_t block_count() const { return header().block_count; }
+  octree::BlockView block(std::uint32_t index) const {
+    return {at(octree::BlockTable(frame_).slot(index)), shape_};
+  }
+  /// Calls visit(index, block) for every block.
   template <class Visit>
   void for_each_block(Visit visit) const {
-    std::uint32_t slot = header().first_block_slot;
-    for (std::uint32_t i = 0; i < header().block_count; ++i) {
-      visit(i, slot);
-      slot += block(slot).slots();
-    }
+    for (std::uint32_t i = 0; i < block_count(); ++i) visit(i, block(i));
   }
 
  private:

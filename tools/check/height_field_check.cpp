@@ -23,21 +23,21 @@ class HeightFieldCheck {
       std::optional<Issue> issue = parts_.load_page(page);
       if (issue) return issues_.add(*std::move(issue));
       const FrameView frame = parts_.frame();
-      frame.for_each_block([&](std::uint32_t, std::uint32_t slot) {
-        if (frame.block(slot).header().is_height_field()) check(page, slot, frame.block(slot));
+      frame.for_each_block([&](std::uint32_t index, const octree::BlockView& block) {
+        if (block.header().is_height_field()) check(page, index, block);
       });
       if (unreadable_) return;
     }
   }
 
  private:
-  void check(std::uint32_t page, std::uint32_t slot, const octree::BlockView& block) {
+  void check(std::uint32_t page, std::uint32_t index, const octree::BlockView& block) {
     if (!parts_.header()->model.has_side_layer())
-      return report(page, slot, "marked as a height field, but the file has no side layer");
+      return report(page, index, "marked as a height field, but the file has no side layer");
     if (query::region_of(parts_.header()->model).has_walls())
-      return report(page, slot, "marked as a height field, but the file is of a region with walls");
+      return report(page, index, "marked as a height field, but the file is of a region with walls");
     if (!is_proven(block) && !unreadable_)
-      report(page, slot, "marked as a height field, which cannot be proven");
+      report(page, index, "marked as a height field, which cannot be proven");
   }
 
   bool is_proven(const octree::BlockView& block) {
@@ -61,9 +61,9 @@ class HeightFieldCheck {
     return !unreadable_;
   }
 
-  void report(std::uint32_t page, std::uint32_t slot, const char* what) {
+  void report(std::uint32_t page, std::uint32_t index, const char* what) {
     issues_.add({IssueCode::kBlockHeightField, page, Error::kNowhere,
-                 fmt::format("the block in slot {} is {}", slot, what)});
+                 fmt::format("block {} is {}", index, what)});
   }
 
   FileParts& parts_;

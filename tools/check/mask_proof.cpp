@@ -12,6 +12,7 @@
 #include "octree/geometry/cell_overlap.h"
 #include "octree/geometry/strict_math.h"
 #include "octree/mask/mask_lookup.h"
+#include "octree/traversal/link_resolver.h"
 #include "octree/traversal/tree_view.h"
 #include "octree/traversal/tree_walk.h"
 #include "octree/winding/crossings.h"
@@ -188,7 +189,7 @@ void MaskProof::check_list(const GreyCell& grey) {
   bool outside = false;
   for (unsigned i = 0; i < grey.blocks.count; ++i) {
     const std::uint32_t link = grey.blocks.links[i];
-    const octree::LinkFormat links(model_->geometry().tree.page_bytes);
+    const auto links = octree::LinkFormat::numbered(model_->geometry().tree.page_bytes);
     // An unreadable page is reported elsewhere.
     if (const std::byte* record = records.find_numbered(link, work))
       outside = outside ||

@@ -44,7 +44,7 @@ class TreeCheck {
       : parts_(parts),
         header_(*parts.header()),
         section_(section),
-        links_(header_.page_bytes),
+        links_(parts.links()),
         report_(report),
         geometry_(geometry),
         nodes_before_(report.nodes),
@@ -78,7 +78,7 @@ class TreeCheck {
     report_.issues.add({code, Error::kNowhere, Error::kNowhere, std::move(message)});
   }
   std::uint64_t key_of(std::uint32_t node) const {
-    return std::uint64_t{page_} << 32 | frame_->node_slot(node);
+    return std::uint64_t{page_} << 32 | node;
   }
 
   FileParts& parts_;
@@ -98,7 +98,7 @@ class TreeCheck {
   std::uint32_t ordinal_ = 0;  // its rank among the pages of its octcode
   std::optional<FrameView> frame_;
   std::vector<Chain> node_bounds_;               // by node
-  std::map<std::uint32_t, Chain> block_bounds_;  // by slot
+  std::vector<Chain> block_bounds_;              // by block
 };
 
 bool TreeCheck::run(const CheckProgress& progress) {
@@ -131,7 +131,7 @@ void TreeCheck::check_page(std::uint32_t page) {
     return;
   }
   node_bounds_.assign(frame_->node_count(), nullptr);
-  block_bounds_.clear();
+  block_bounds_.assign(frame_->block_count(), nullptr);
   ++report_.pages;
   report_.nodes += frame_->node_count();
   report_.blocks += frame_->header().block_count;
@@ -231,17 +231,15 @@ void TreeCheck::check_node(std::uint32_t index) {
       continue;
     }
     if (!octree::LinkFormat::is_leaf(link)) {
-      const std::uint32_t below = frame_->node_at_slot(links_.slot(link));
-      open.highest_child = std::max(open.highest_child, frame_->node(below).height);
+      const std::uint8_t height = frame_->node(links_.record(link)).height;
+      open.highest_child = std::max(open.highest_child, height);
     }
     if (!geometry_) continue;
     auto bounds = std::make_shared<const Bounds>(
         Bounds{child_box(node, child), child_disc(node, child), frame_->moments(node, child),
                node_bounds_[index], 0});
-    if (octree::LinkFormat::is_leaf(link))
-      block_bounds_[links_.slot(link)] = std::move(bounds);
-    else
-      node_bounds_[frame_->node_at_slot(links_.slot(link))] = std::move(bounds);
+    const bool is_block = octree::LinkFormat::is_leaf(link);
+    (is_block ? block_bounds_ : node_bounds_)[links_.record(link)] = std::move(bounds);
   }
   if (open.children_left > 0)
     open_nodes_.emplace(key_of(index), open);
@@ -252,7 +250,7 @@ void TreeCheck::check_node(std::uint32_t index) {
 void TreeCheck::follow_link(std::uint32_t index, unsigned child, OpenNode& open) {
   const Node& node = frame_->node(index);
   const std::uint32_t link = node.link[child];
-  const std::uint32_t to = frame_->node_at_slot(links_.slot(link));  // as in any page of the tree
+  const std::uint32_t to = links_.record(link);
   SubtreeClaim claim;
   Bounds bounds{child_box(node, child), child_disc(node, child), frame_->moments(node, child),
                 node_bounds_[index], 0};
@@ -267,8 +265,7 @@ void TreeCheck::follow_link(std::uint32_t index, unsigned child, OpenNode& open)
 }
 
 void TreeCheck::check_blocks() {
-  frame_->for_each_block([&](std::uint32_t, std::uint32_t slot) {
-    const octree::BlockView block = frame_->block(slot);
+  frame_->for_each_block([&](std::uint32_t index, const octree::BlockView& block) {
     triangles_ += block.triangle_count();
     // Indices ascend within a block.
     const std::uint64_t last = block.id(block.triangle_count() - 1);
@@ -277,8 +274,7 @@ void TreeCheck::check_blocks() {
              fmt::format("a {} has index {}, but the model has {} indices",
                          section_.is_of_caps ? "cap" : "triangle", last, section_.indices));
     if (!geometry_) return;
-    const auto bounds = block_bounds_.find(slot);
-    geometry_->add(block, page_, bounds == block_bounds_.end() ? nullptr : bounds->second.get());
+    geometry_->add(block, page_, block_bounds_[index].get());
   });
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 /// A node that is to be opened.
 struct NodeToVisit {
-  std::uint32_t slot = 0;
+  std::uint32_t index = 0;
   std::uint32_t depth = 0;
 };
 
@@ -24,7 +24,7 @@ class TreeDescent {
   using Visitor = std::function<bool(const TreePart&)>;
 
   TreeDescent(FileParts& parts, const Visitor& visit)
-      : parts_(parts), visit_(visit), links_(parts.header()->page_bytes) {}
+      : parts_(parts), visit_(visit), links_(parts.links()) {}
 
   Result<void> run(const std::function<void(std::uint32_t)>& progress) {
     if (auto begun = begin(); !begun) return begun;
@@ -61,7 +61,7 @@ class TreeDescent {
     }
     if (visit_(root) && !root.is_block) {
       if (root.page >= parts_.first_cap_page()) return damage(root.page);
-      open_[root.page].push_back({links_.slot(link), 0});
+      open_[root.page].push_back({links_.record(link), 0});
     }
     return {};
   }
@@ -69,16 +69,16 @@ class TreeDescent {
   // Returns false if a link leads to no node behind this one.
   bool open(std::uint32_t page, const NodeToVisit& at, std::vector<NodeToVisit>& nodes) {
     const FrameView frame = parts_.frame();
-    if (!has_node(frame, at.slot)) return false;
-    const octree::Node& node = frame.node(frame.node_at_slot(at.slot));
+    if (at.index >= frame.node_count()) return false;
+    const octree::Node& node = frame.node(at.index);
     // From the last on, since the last to be added is opened next.
     for (unsigned child = node.child_count; child-- > 0;) {
       const std::uint32_t link = node.link[child];
       const TreePart part = part_of(page, at.depth + 1, node, child);
       if (!visit_(part) || part.is_block) continue;
-      const NodeToVisit next{links_.slot(link), part.depth};
+      const NodeToVisit next{links_.record(link), part.depth};
       if (part.page == page) {
-        if (next.slot <= at.slot) return false;
+        if (next.index <= at.index) return false;
         nodes.push_back(next);
       } else {
         if (part.page < page || part.page >= parts_.first_cap_page()) return false;
@@ -86,12 +86,6 @@ class TreeDescent {
       }
     }
     return true;
-  }
-
-  static bool has_node(const FrameView& frame, std::uint32_t slot) {
-    if (slot < frame.header().first_node_slot) return false;
-    const std::uint32_t index = frame.node_at_slot(slot);
-    return index < frame.node_count() && frame.node_slot(index) == slot;
   }
 
   TreePart part_of(std::uint32_t page, std::uint32_t depth, const octree::Node& node,

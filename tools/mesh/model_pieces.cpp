@@ -13,8 +13,7 @@ Result<std::uint64_t> add_page(const FrameView& frame, const query::Scale& scale
                                MeshPieceMaker& maker) {
   std::uint64_t count = 0;
   Result<void> added;
-  frame.for_each_block([&](std::uint32_t, std::uint32_t slot) {
-    const octree::BlockView block = frame.block(slot);
+  frame.for_each_block([&](std::uint32_t, const octree::BlockView& block) {
     for (unsigned i = 0; i < block.triangle_count() && added; ++i) {
       const octree::Triangle triangle = block.triangle(i);
       added = maker.add({scale.out(triangle[0]), scale.out(triangle[1]), scale.out(triangle[2])});

@@ -16,7 +16,7 @@ class Surveyor {
  public:
   explicit Surveyor(FileParts& parts)
       : parts_(parts),
-        links_(parts.header()->page_bytes),
+        links_(parts.links()),
         mask_(
             parts, [this](const GreyCell& grey) { count(grey); },
             [this](Issue issue) { survey_.issues.add(std::move(issue)); }) {}
@@ -54,8 +54,8 @@ class Surveyor {
     row.head = add_streams<octree::RawStreams>(caps ? survey_.cap_streams : survey_.streams);
     if (caps) return;
     const FrameView frame = parts_.frame();
-    frame.for_each_block([&](std::uint32_t, std::uint32_t slot) {
-      survey_.height_fields += frame.block(slot).header().is_height_field() ? 1 : 0;
+    frame.for_each_block([&](std::uint32_t, const octree::BlockView& block) {
+      survey_.height_fields += block.header().is_height_field() ? 1 : 0;
     });
     add_levels(row.number);
   }
@@ -115,6 +115,9 @@ class Surveyor {
     }
   }
 
+  // Depths of a page's records. Empty where no link from above was seen.
+  using Depths = std::vector<std::optional<std::uint32_t>>;
+
   LevelRow& level(std::uint32_t depth) {
     if (survey_.levels.size() <= depth) survey_.levels.resize(depth + 1);
     return survey_.levels[depth];
@@ -123,9 +126,7 @@ class Surveyor {
   void add_levels(std::uint32_t page) {
     const FrameView frame = parts_.frame();
     const octree::FrameHeader& header = frame.header();
-    // Depths of the page's records. Empty where no link from above was seen.
-    std::vector<std::optional<std::uint32_t>> node_depths(header.node_count);
-    std::map<std::uint32_t, std::uint32_t> block_depths;  // by slot
+    Depths node_depths(header.node_count), block_depths(header.block_count);
     for (std::uint32_t i = 0; i < header.root_count; ++i)
       node_depths[i] = pending_.take({page, i, false});
     for (std::uint32_t i = 0; i < header.node_count; ++i)
@@ -133,14 +134,14 @@ class Surveyor {
     bool reached = true;
     if (header.node_count == 0)
       if (const auto depth = pending_.take({page, 0, true}))
-        block_depths[header.first_block_slot] = *depth;
-    frame.for_each_block([&](std::uint32_t, std::uint32_t slot) {
-      const auto depth = block_depths.find(slot);
-      reached = reached && depth != block_depths.end();
-      if (depth == block_depths.end()) return;
-      LevelRow& row = level(depth->second);
+        block_depths[0] = *depth;
+    frame.for_each_block([&](std::uint32_t index, const octree::BlockView& block) {
+      const std::optional<std::uint32_t>& depth = block_depths[index];
+      reached = reached && depth.has_value();
+      if (!depth) return;
+      LevelRow& row = level(*depth);
       ++row.blocks;
-      row.triangles += frame.block(slot).triangle_count();
+      row.triangles += block.triangle_count();
     });
     std::optional<std::uint32_t> highest;
     const auto raise = [&highest](std::uint32_t depth) {
@@ -150,7 +151,8 @@ class Surveyor {
       reached = reached && depth.has_value();
       if (depth) raise(*depth);
     }
-    for (const auto& [slot, depth] : block_depths) raise(depth);
+    for (const auto& depth : block_depths)
+      if (depth) raise(*depth);
     if (highest) {
       ++level(*highest).pages;
       level(*highest).page_bytes += parts_.entries()[page].stored_bytes;
@@ -160,8 +162,7 @@ class Surveyor {
   }
 
   void add_node(std::uint32_t page, const FrameView& frame, std::uint32_t index,
-                std::uint32_t depth, std::vector<std::optional<std::uint32_t>>& node_depths,
-                std::map<std::uint32_t, std::uint32_t>& block_depths) {
+                std::uint32_t depth, Depths& node_depths, Depths& block_depths) {
     const octree::Node& node = frame.node(index);
     LevelRow& row = level(depth);
     ++row.nodes;
@@ -169,13 +170,11 @@ class Surveyor {
     for (unsigned child = 0; child < node.child_count; ++child) {
       const std::uint32_t link = node.link[child];
       const bool leaf = octree::LinkFormat::is_leaf(link);
-      const std::uint32_t slot = links_.slot(link);
+      const std::uint32_t record = links_.record(link);
       if (links_.page(link) != page)
-        pending_.add({links_.page(link), frame.node_at_slot(slot), false}, depth + 1);
-      else if (leaf)
-        block_depths[slot] = depth + 1;
+        pending_.add({links_.page(link), record, false}, depth + 1);
       else
-        node_depths[frame.node_at_slot(slot)] = depth + 1;
+        (leaf ? block_depths : node_depths)[record] = depth + 1;
     }
   }
 

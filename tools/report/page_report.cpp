@@ -5,7 +5,6 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "octree/page/block_table.h"
 #include "tools/cli/file_text.h"
 
 namespace planetree::tools {
@@ -98,22 +97,14 @@ Json streams_json(const FileParts& parts) {
 
 Json vector_json(const std::array<float, 3>& values) { return {values[0], values[1], values[2]}; }
 
-// Number of the record that a link of the current page leads to.
-std::uint32_t record_of(const FileParts& parts, std::uint32_t link) {
-  const std::uint32_t slot = octree::LinkFormat(parts.header()->page_bytes).slot(link);
-  return octree::LinkFormat::is_leaf(link)
-             ? octree::BlockTable(parts.frame_bytes()).number_at(slot).value()
-             : parts.frame().node_at_slot(slot);
-}
-
 Json child_json(const FileParts& parts, const octree::Node& node, unsigned child) {
-  const octree::LinkFormat links(parts.header()->page_bytes);
+  const octree::LinkFormat links = parts.links();
   const octree::FloatBox box = child_box(node, child);
   const octree::Disc disc = child_disc(node, child);
   const std::uint32_t link = node.link[child];
   return {{"kind", octree::LinkFormat::is_leaf(link) ? "block" : "node"},
           {"page", links.page(link)},
-          {"record", record_of(parts, link)},
+          {"record", links.record(link)},
           {"box_lower", vector_json(box.lower)},
           {"box_upper", vector_json(box.upper)},
           {"normal", vector_json(disc.normal)},

@@ -14,8 +14,7 @@ namespace {
 constexpr std::uint32_t kMaxPages = 64;
 
 void add_edges(const FrameView& frame, std::vector<double>& lengths) {
-  frame.for_each_block([&](std::uint32_t, std::uint32_t slot) {
-    const octree::BlockView block = frame.block(slot);
+  frame.for_each_block([&](std::uint32_t, const octree::BlockView& block) {
     for (unsigned i = 0; i < block.triangle_count(); ++i) {
       const octree::Triangle triangle = block.triangle(i);
       for (std::size_t k = 0; k < 3; ++k)

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "octree/geometry/tree_limits.h"
-#include "octree/page/block_table.h"
 #include "query/file/scale.h"
 
 namespace planetree::tools {
@@ -96,7 +95,7 @@ void ShapeReader::start(const ShapeView& view) {
     views_.push_back(instance.place.view_from(view));
     ShapePiece root;
     root.link = files_[instance.file].root_link();
-    root.page = links_of(instance.file).page(root.link);
+    root.page = files_[instance.file].links().page(root.link);
     root.instance = static_cast<std::uint32_t>(shape_.pieces.size());
     root.weight = std::numeric_limits<float>::infinity();
     shape_.pieces.push_back(root);
@@ -197,18 +196,15 @@ Result<void> ShapeReader::divide_in_page(std::span<const ShapePiece> due) {
 bool ShapeReader::has_record(const ShapePiece& piece) const {
   const FileParts& parts = files_[file_of(piece)];
   const FrameView frame = parts.frame();
-  const octree::FrameHeader& head = frame.header();
-  const std::uint32_t slot = links_of(file_of(piece)).slot(piece.link);
-  if (octree::LinkFormat::is_leaf(piece.link))
-    return octree::BlockTable(parts.frame_bytes()).number_at(slot).has_value();
-  return slot >= head.first_node_slot && frame.node_at_slot(slot) < head.node_count &&
-         frame.node_slot(frame.node_at_slot(slot)) == slot;
+  const bool is_block = octree::LinkFormat::is_leaf(piece.link);
+  return parts.links().record(piece.link) < (is_block ? frame.block_count() : frame.node_count());
 }
 
 void ShapeReader::add_children(const ShapePiece& piece, std::vector<ShapePiece>& inner) {
-  const FrameView frame = files_[file_of(piece)].frame();
-  const octree::LinkFormat links = links_of(file_of(piece));
-  const octree::Node& node = frame.node(frame.node_at_slot(links.slot(piece.link)));
+  const FileParts& parts = files_[file_of(piece)];
+  const FrameView frame = parts.frame();
+  const octree::LinkFormat links = parts.links();
+  const octree::Node& node = frame.node(links.record(piece.link));
   count_ += node.child_count - std::size_t{1};
   for (unsigned child = 0; child < node.child_count; ++child) {
     ShapePiece part;
@@ -227,7 +223,7 @@ void ShapeReader::add_children(const ShapePiece& piece, std::vector<ShapePiece>&
 void ShapeReader::add_triangles(const ShapePiece& piece) {
   const FileParts& parts = files_[file_of(piece)];
   const FrameView frame = parts.frame();  // has the layout that the view of the block refers to
-  const octree::BlockView block = frame.block(links_of(file_of(piece)).slot(piece.link));
+  const octree::BlockView block = frame.block(parts.links().record(piece.link));
   const double* const centre = parts.header()->model.centre;
   count_ += block.triangle_count() - std::size_t{1};
   for (unsigned i = 0; i < block.triangle_count(); ++i) {

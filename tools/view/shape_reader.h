@@ -94,9 +94,6 @@ class ShapeReader {
   Result<void> divide_all(std::vector<ShapePiece> due, Time end);
   Result<void> divide_in_page(std::span<const ShapePiece> due);
   std::size_t file_of(const ShapePiece& piece) const { return instances_[piece.instance].file; }
-  octree::LinkFormat links_of(std::size_t file) const {
-    return octree::LinkFormat(files_[file].header()->page_bytes);
-  }
   bool has_record(const ShapePiece& piece) const;
   void add_children(const ShapePiece& piece, std::vector<ShapePiece>& inner);
   void add_triangles(const ShapePiece& piece);

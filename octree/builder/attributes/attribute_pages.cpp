@@ -28,14 +28,14 @@ void split(const Bytes& records, std::size_t record_bytes, std::size_t at, std::
 
 // Appends the page and the number in it of each block.
 void add_links(std::span<const std::uint32_t> links, std::uint32_t page_bytes, StreamWriter& out) {
-  const LinkFormat format(page_bytes);
+  const LinkFormat format = LinkFormat::numbered(page_bytes);
   std::vector<std::uint32_t> pages;
   std::vector<std::uint16_t> numbers;
   for (const std::uint32_t link : links) {
     const bool is_none = link == kNoLink;
     pages.push_back(is_none ? kNoStoredLink.page : format.page(link));
     numbers.push_back(is_none ? kNoStoredLink.record
-                              : static_cast<std::uint16_t>(format.number(link)));
+                              : static_cast<std::uint16_t>(format.record(link)));
   }
   out.byte_split(pages);
   out.byte_split(numbers);

@@ -35,7 +35,7 @@ TriangleLinks::TriangleLinks(std::uint64_t index_count, std::uint32_t in_page,
                              storage::SpillFile& file)
     : index_count_(index_count),
       shape_(shape),
-      format_(page_bytes),
+      format_(LinkFormat::numbered(page_bytes)),
       pages_per_bucket_(bucket_pages(index_count, in_page)),
       bucket_indices_(std::uint64_t{pages_per_bucket_} * in_page),
       buckets_(sizeof(Place), static_cast<std::size_t>((index_count - 1) / bucket_indices_ + 1),
@@ -55,7 +55,7 @@ Result<void> TriangleLinks::add(std::uint32_t number, std::span<const std::byte>
     for (std::size_t i = 1; i < count; ++i, ++next_step)
       indices[i] = indices[i - 1] + (shape_.wide_ids ? streams.id_steps64[next_step]
                                                      : streams.id_steps32[next_step]);
-    const std::uint32_t link = format_.make_numbered({number, block});
+    const std::uint32_t link = format_.make_block({number, block});
     const auto added = add_block(link, std::span(indices).first(count));
     if (!added) return added;
   }

@@ -22,20 +22,22 @@ constexpr std::uint64_t kMaxVisits = 256;
 /// Finds the numbers of blocks in their pages.
 class BlockNumbers {
  public:
-  BlockNumbers(std::uint32_t page_bytes, const PageReader& pages)
-      : links_(page_bytes), pages_(pages) {}
+  BlockNumbers(const TreeInfo& tree, const PageReader& pages)
+      : page_bytes_(tree.page_bytes), links_(page_bytes_, tree.shape.links), pages_(pages) {}
 
   /// Returns the numbered link for the link of a block; none if its page is not available.
   std::optional<std::uint32_t> numbered(std::uint32_t link) const {
+    if (links_.target() == LinkTarget::kNumber) return link;
     const std::uint32_t page = links_.page(link);
     const std::byte* const frame = pages_.page(pages_.context, page);
     if (!frame) return std::nullopt;
-    const std::optional<std::uint16_t> number = BlockTable(frame).number_at(links_.slot(link));
+    const std::optional<std::uint16_t> number = BlockTable(frame).number_at(links_.record(link));
     if (!number) return std::nullopt;
-    return links_.make_numbered({page, *number});
+    return LinkFormat::numbered(page_bytes_).make_block({page, *number});
   }
 
  private:
+  const std::uint32_t page_bytes_;
   const LinkFormat links_;
   const PageReader& pages_;
 };
@@ -123,7 +125,7 @@ BlockLister::Outcome BlockLister::list(const GridCell& cell, const PageReader& p
   const bool complete = walk(tree_) && (!tree_.caps || walk(*tree_.caps));
   if (near.too_many() || work.nodes + work.blocks >= kMaxVisits) return Outcome::kTooMany;
   if (!complete) return Outcome::kLost;
-  return near.list(BlockNumbers(tree_.page_bytes, pages), blocks);
+  return near.list(BlockNumbers(tree_, pages), blocks);
 }
 
 }  // namespace planetree::octree

@@ -11,7 +11,8 @@ namespace {
 /// Collects the streams of one page.
 class Streams {
  public:
-  Streams(std::uint32_t page_bytes, std::uint32_t page) : block_links_(page_bytes), page_(page) {}
+  Streams(std::uint32_t page_bytes, std::uint32_t page)
+      : block_links_(LinkFormat::numbered(page_bytes)), page_(page) {}
 
   void add_node(const MaskEntry& node, StoredLink family) {
     const bool above = node.grey != 0 && family.page != page_;
@@ -65,7 +66,7 @@ class Streams {
                           blocks.octants.begin() + blocks.count);
     for (unsigned i = 0; i < blocks.count; ++i) {
       block_pages_.push_back(block_links_.page(blocks.links[i]));
-      block_numbers_.push_back(static_cast<std::uint16_t>(block_links_.number(blocks.links[i])));
+      block_numbers_.push_back(static_cast<std::uint16_t>(block_links_.record(blocks.links[i])));
     }
   }
 

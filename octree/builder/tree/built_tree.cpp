@@ -3,6 +3,14 @@
 #include "octree/geometry/strict_math.h"
 
 namespace planetree::octree {
+namespace {
+
+BlockShape with_numbers(BlockShape shape) {
+  shape.links = LinkTarget::kNumber;
+  return shape;
+}
+
+}  // namespace
 
 BuiltTree::BuiltTree(const ModelFrame& frame, const ChunkTree& above,
                      const std::vector<BuiltChunk>& chunks, const BlockShape& shape,
@@ -10,7 +18,7 @@ BuiltTree::BuiltTree(const ModelFrame& frame, const ChunkTree& above,
                      std::uint32_t first_page)
     : frame_(frame),
       chunks_(chunks),
-      shape_(shape),
+      shape_(with_numbers(shape)),
       page_bytes_(page_bytes),
       top_tree_(build_top_tree(above, chunks, shape, page_bytes)),
       numbers_(top_tree_, chunks, page_bytes, first_page),
@@ -30,7 +38,7 @@ TreeInfo BuiltTree::info() const {
   TreeInfo info;
   info.page_bytes = page_bytes_;
   info.first_page = pages_.first();
-  info.root_link = root_link_of(page_bytes_, pages_.first(), node_count_);
+  info.root_link = root_link_of(page_bytes_, shape_.links, pages_.first(), node_count_);
   info.shape = shape_;
   info.record_count = node_count_ + block_count_;
   info.box_lower = frame_.lower();

@@ -15,7 +15,8 @@
 
 namespace planetree::octree {
 
-/// The tree of a model whose chunks are all built. Its pages are numbered as in the file.
+/// The tree of a model whose chunks are all built. Its pages are numbered as in the file. Links of
+/// its nodes have numbers of records, because the number of all pages of the file is not known yet.
 /// threads  any number.
 class BuiltTree {
  public:
@@ -45,7 +46,7 @@ class BuiltTree {
  private:
   const ModelFrame& frame_;
   const std::vector<BuiltChunk>& chunks_;
-  const BlockShape& shape_;
+  const BlockShape shape_;
   const std::uint32_t page_bytes_;
   TopTree top_tree_;
   const PageNumbers numbers_;

@@ -18,7 +18,7 @@ auto rank(const NumberedPage& page) {
 
 PageNumbers::PageNumbers(const TopTree& top_tree, const std::vector<BuiltChunk>& chunks,
                          std::uint32_t page_bytes, std::uint32_t first_page)
-    : links_(page_bytes),
+    : links_(LinkFormat::numbered(page_bytes)),
       first_page_(first_page),
       of_top_tree_(top_tree.plan.pages.size()),
       of_chunk_(chunks.size()) {

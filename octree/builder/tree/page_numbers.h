@@ -25,7 +25,7 @@ class PageNumbers {
   PageNumbers(const TopTree& top_tree, const std::vector<BuiltChunk>& chunks,
               std::uint32_t page_bytes, std::uint32_t first_page);
 
-  /// errors  kBadArgument: more pages than links of 31 bits can address, 2^21 for pages of 64 KiB.
+  /// errors  kBadArgument: more pages than links can address, 2^23 - 1 for pages of 64 KiB.
   Result<void> check() const;
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(pages_.size()); }

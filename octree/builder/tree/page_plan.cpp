@@ -63,7 +63,7 @@ class PagePlanner {
       fill(drafts_[i].page, below);
       pack(below);
     }
-    if (drafts_.size() > LinkFormat(plan_.page_bytes).max_pages())
+    if (drafts_.size() > LinkFormat::numbered(plan_.page_bytes).max_pages())
       return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
                         "%zu pages, more than links can address; build with a larger page size",
                         drafts_.size());

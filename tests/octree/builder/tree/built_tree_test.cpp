@@ -6,6 +6,7 @@
 #include <string>
 
 #include "octree/builder/mask/tree_frames.h"
+#include "octree/traversal/link_resolver.h"
 #include "octree/traversal/tree_view.h"
 #include "octree/traversal/tree_walk.h"
 #include "tests/octree/builder/chunked_tree.h"
