@@ -67,14 +67,14 @@ void go_down(MaskRecords& records, const MaskNode& from, const Point& point, Wor
     ++work.nodes;
     const unsigned octant = octant_in(found.cell);
     found.cell = found.cell.child(octant);
-    if ((node.grey >> octant & 1) == 0) {
+    if (!node.is_grey(octant)) {
       found.kind = MaskLookup::Kind::kColour;
-      found.winding = (node.black >> octant & 1) - (node.inverted >> octant & 1);
+      found.winding = node.winding(octant);
       return;
     }
     const std::byte* record = records.child(node, octant, work);
     if (!record) return;
-    if ((node.leaf >> octant & 1) != 0) return read_leaf(record, records, point, limit, found);
+    if (node.is_leaf(octant)) return read_leaf(record, records, point, limit, found);
     node = *reinterpret_cast<const MaskNode*>(record);
   }
 }

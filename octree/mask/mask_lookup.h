@@ -75,7 +75,7 @@ class MaskRecords {
   bool root_is_node() const { return is_mask_node(frame_, header().first_record_slot); }
 
   /// Returns what a link leads to; null if its page is not resident.
-  const std::byte* peek(std::uint32_t link) const {
+  const std::byte* peek(MaskLink link) const {
     const std::uint32_t page = links_.page(link);
     const std::byte* frame = frame_;
     if (page != page_)
@@ -86,7 +86,7 @@ class MaskRecords {
 
   /// Prefetches the first two cache lines of what a link leads to. If its page is not resident, it
   /// prefetches lines of another page, which does no harm.
-  static void prefetch(const MaskInfo& mask, std::uint32_t link, const FrameTable& frames) {
+  static void prefetch(const MaskInfo& mask, MaskLink link, const FrameTable& frames) {
     const MaskLinkFormat links(mask.page_bytes);
     const std::uint32_t page = links.page(link);
     if (!frames.cells || page >= mask.page_count) return;
@@ -99,38 +99,37 @@ class MaskRecords {
   /// Returns the record of a grey octant of `node`; null as record() does. `node` is the last
   /// record found, or a copy that was made before any was.
   const std::byte* child(const MaskNode& node, unsigned octant, TraversalStats& work) {
-    const std::uint32_t link = child_link(node, octant);
+    const MaskLink link = child_link(node, octant);
     // Links within a page were checked when it was decoded.
     if (links_.page(link) == page_ && frame_) return slot(links_.slot(link));
-    return record(link, (node.leaf >> octant & 1) != 0, work);
+    return record(link, node.is_leaf(octant), work);
   }
   /// Returns the link to the record of a grey octant.
-  std::uint32_t child_link(const MaskNode& node, unsigned octant) const {
+  MaskLink child_link(const MaskNode& node, unsigned octant) const {
     const unsigned below = (1U << octant) - 1;
-    return links_.make(links_.page(node.family),
-                       links_.slot(node.family) + count_octants(node.grey & below));
+    return node.family() + count_octants(node.grey & below);
   }
   /// Returns the record at a link; null if its page is missing or has no such record there.
   ///
   /// leaf  whether the parent says that it is a leaf; else it is a node
-  const std::byte* record(std::uint32_t link, bool leaf, TraversalStats& work) {
+  const std::byte* record(MaskLink link, bool leaf, TraversalStats& work) {
     switch_to(links_.page(link), work);
     const std::uint32_t at = links_.slot(link);
     return frame_ && holds(at, leaf) ? slot(at) : nullptr;
   }
 
   /// Switches to the page of a link, which slot() then refers to. Returns false if it is missing.
-  bool switch_to_page_of(std::uint32_t link, TraversalStats& work) {
+  bool switch_to_page_of(MaskLink link, TraversalStats& work) {
     switch_to(links_.page(link), work);
     return frame_ != nullptr;
   }
-  std::uint32_t slot_of(std::uint32_t link) const { return links_.slot(link); }
+  std::uint32_t slot_of(MaskLink link) const { return links_.slot(link); }
   /// Whether `slots` slots from a link on are within its page.
-  bool fits_in_page(std::uint32_t link, unsigned slots) const {
+  bool fits_in_page(MaskLink link, unsigned slots) const {
     return links_.slot(link) + slots <= links_.slots();
   }
   /// Returns the link to a slot of the last record's page.
-  std::uint32_t link_to(std::uint32_t slot) const { return links_.make(page_, slot); }
+  MaskLink link_to(std::uint32_t slot) const { return links_.make(page_, slot); }
 
   const std::byte* slot(std::uint32_t number) const { return frame_ + number * kMaskSlotBytes; }
 

@@ -42,15 +42,15 @@ void MaskPrefetcher::step(const PageReader& pages) noexcept {
 void MaskPrefetcher::go_below(const MaskNode& node, const PageReader& pages) {
   if (cell_.level >= kLevels) return;  // only in a forged mask
   const unsigned octant = CellGrid(mask_.lower).octant(cell_, point_);
-  if ((node.grey >> octant & 1) == 0) return;
+  if (!node.is_grey(octant)) return;
   cell_ = cell_.child(octant);
   link_ = MaskRecords(mask_, pages).child_link(node, octant);
-  next_ = (node.leaf >> octant & 1) != 0 ? Next::kLeaf : Next::kNode;
+  next_ = node.is_leaf(octant) ? Next::kLeaf : Next::kNode;
   prefetch_at(link_, pages);
 }
 
 // Prefetches what a link leads to, and returns it; null if its page is not resident.
-const std::byte* MaskPrefetcher::prefetch_at(std::uint32_t link, const PageReader& pages) const {
+const std::byte* MaskPrefetcher::prefetch_at(MaskLink link, const PageReader& pages) const {
   const std::byte* record = MaskRecords(mask_, pages).peek(link);
   if (record) __builtin_prefetch(record);
   return record;

@@ -37,13 +37,13 @@ class MaskPrefetcher {
   enum class Next : std::uint8_t { kNothing, kGridRecord, kNode, kLeaf };
 
   void go_below(const MaskNode& node, const PageReader& pages);
-  const std::byte* prefetch_at(std::uint32_t link, const PageReader& pages) const;
+  const std::byte* prefetch_at(MaskLink link, const PageReader& pages) const;
 
   const MaskInfo& mask_;
   const Point point_;
   const SideGridRecord* record_ = nullptr;
   GridCell cell_;
-  std::uint32_t link_ = 0;
+  MaskLink link_ = 0;
   Next next_ = Next::kNothing;
 };
 

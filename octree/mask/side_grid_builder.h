@@ -71,17 +71,17 @@ class SideGrid::SideGridBuilder {
     const MaskNode node = *reinterpret_cast<const MaskNode*>(record);  // its page may be evicted
     for (unsigned octant = 0; octant < 8; ++octant) {
       const GridCell child = cell.child(octant);
-      if ((node.grey >> octant & 1) != 0)
+      if (node.is_grey(octant))
         go_to_grey(node, octant, child);
       else if (pass_ == Pass::kCells)
-        fill_colour(child, (node.black >> octant & 1) - (node.inverted >> octant & 1));
+        fill_colour(child, node.winding(octant));
     }
   }
 
   void go_to_grey(const MaskNode& node, unsigned octant, const GridCell& child) {
     for (unsigned axis = 0; axis < 3; ++axis)
       if (child.at[axis] << (grid_.level_ - child.level) >= width(axis)) return;
-    const bool leaf = (node.leaf >> octant & 1) != 0;
+    const bool leaf = node.is_leaf(octant);
     const bool listed = child.level == grid_.level_ || leaf;
     if (leaf && grid_.level_ - child.level > kMaxAbove) return;
     if (listed && pass_ == Pass::kCells)
@@ -95,8 +95,8 @@ class SideGrid::SideGridBuilder {
 
   // Returns the record of a grey octant; null if its page is missing or kMaxBrought is reached.
   const std::byte* below(const MaskNode& node, unsigned octant) {
-    if (!records_->peek(node.family) && ++brought_ > kMaxBrought) return nullptr;
-    const bool leaf = (node.leaf >> octant & 1) != 0;
+    if (!records_->peek(node.family()) && ++brought_ > kMaxBrought) return nullptr;
+    const bool leaf = node.is_leaf(octant);
     return records_->record(records_->child_link(node, octant), leaf, work_);
   }
 
@@ -104,13 +104,13 @@ class SideGrid::SideGridBuilder {
   void go_to_node(const MaskNode node, const GridCell& cell) {
     const Position at{cell.at[0] + kRim, cell.at[1] + kRim, cell.at[2] + kRim};
     for (unsigned octant = 0; octant < 8; ++octant) {
-      if ((node.grey >> octant & 1) == 0) {
-        fill(at, octant, (node.black >> octant & 1) - (node.inverted >> octant & 1));
+      if (!node.is_grey(octant)) {
+        fill(at, octant, node.winding(octant));
         continue;
       }
       const std::byte* record = pass_ == Pass::kRecords ? below(node, octant) : nullptr;
       if (!record) continue;
-      if ((node.leaf >> octant & 1) != 0)
+      if (node.is_leaf(octant))
         note(at, octant,
              read_leaf(record, records_->child_link(node, octant), cell.child(octant)).record(0));
       else
@@ -121,7 +121,7 @@ class SideGrid::SideGridBuilder {
   // What the grid needs to know of a leaf.
   struct Leaf {
     GridCell cell;
-    std::uint32_t link = 0;
+    MaskLink link = 0;
     bool listed = false;
     MaskListed head{};
     CellSlab slab{};
@@ -133,7 +133,7 @@ class SideGrid::SideGridBuilder {
     }
   };
 
-  Leaf read_leaf(const std::byte* record, std::uint32_t link, const GridCell& cell) const {
+  Leaf read_leaf(const std::byte* record, MaskLink link, const GridCell& cell) const {
     Leaf leaf{cell, link};
     const auto& corners = *reinterpret_cast<const MaskCorners*>(record);
     if (!is_listed(corners)) return leaf;

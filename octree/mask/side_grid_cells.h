@@ -13,48 +13,54 @@
 namespace planetree::octree {
 
 /// What a SideGrid has of a grey cell of a mask: a copy of a node, the link to a leaf, or the link
-/// to a leaf's list of blocks and the leaf's slab. A record does not straddle cache lines.
+/// to a leaf's list of blocks and the leaf's slab. A record has no room for links beyond 32 bits,
+/// so that it has nothing of cells in the last pages of very large masks. It does not straddle cache
+/// lines.
 struct alignas(16) SideGridRecord {
   static constexpr int kUnknown = 2;  ///< no sign of a winding number
 
   std::uint32_t link = 0;                  ///< to a node's family, a leaf's record, or its list
   std::uint32_t slab = CellSlab{}.word();  ///< slab of a listed leaf
   std::uint8_t grey = 0;                   ///< of a node, as in MaskNode; 0 in other records
-  std::uint8_t leaf = kNothing;            ///< of a node, as in MaskNode; else a kind and flags
-  std::uint8_t black = 0;                  ///< as in MaskNode; of a list: the count of blocks
+  std::uint8_t kind = kNothing;            ///< not of a node: a kind and flags
+  std::uint8_t black = 0;                  ///< MaskNode::leaf_or_black; of a list: count of blocks
   std::uint8_t inverted = 0;               ///< as in MaskNode; of a list: MaskListed::higher
   std::uint8_t touched = 0xff;             ///< octants of this cell that listed blocks touch
 
   static constexpr SideGridRecord of_node(const MaskNode& node) {
-    return {.link = node.family,
+    if (node.family_high != 0) return {};
+    return {.link = node.family_low,
             .grey = node.grey,
-            .leaf = node.grey != 0 ? node.leaf : kOneColour,
-            .black = node.black,
+            .kind = kOneColour,
+            .black = node.leaf_or_black,
             .inverted = node.inverted};
   }
   /// Makes the record of a cell of one colour.
   static constexpr SideGridRecord of_colour(int winding) {
     MaskNode node{};
-    (winding < 0 ? node.inverted : node.black) = winding != 0 ? 0xff : 0;
+    (winding < 0 ? node.inverted : node.leaf_or_black) = winding != 0 ? 0xff : 0;
     return of_node(node);
   }
   /// Makes the record of a leaf that is not listed.
   ///
   /// levels_above  levels from this cell up to the leaf's cell, 0 to 7
-  static constexpr SideGridRecord of_leaf(std::uint32_t link, unsigned levels_above) {
-    return {.link = link, .leaf = static_cast<std::uint8_t>(kLeaf | levels_above)};
+  static constexpr SideGridRecord of_leaf(MaskLink link, unsigned levels_above) {
+    if (!has(link)) return {};
+    return {.link = static_cast<std::uint32_t>(link),
+            .kind = static_cast<std::uint8_t>(kLeaf | levels_above)};
   }
   /// Makes the record of a listed leaf for which has() is true. Its list is at `link`.
   ///
   /// touched       octants of the leaf that listed blocks touch; used if levels_above is 0
   /// levels_above  as in of_leaf()
-  static constexpr SideGridRecord of_list(const MaskListed& listed, std::uint32_t link,
+  static constexpr SideGridRecord of_list(const MaskListed& listed, MaskLink link,
                                           const CellSlab& slab, unsigned touched,
                                           unsigned levels_above) {
+    if (!has(link)) return {};
     const unsigned least = listed.least == 0 ? 0 : kMinIsMinus1;
-    return {.link = link,
+    return {.link = static_cast<std::uint32_t>(link),
             .slab = slab.word(),
-            .leaf = static_cast<std::uint8_t>(kListed | least | levels_above),
+            .kind = static_cast<std::uint8_t>(kListed | least | levels_above),
             .black = listed.block_count,
             .inverted = listed.higher,
             .touched = static_cast<std::uint8_t>(levels_above == 0 ? touched : 0xff)};
@@ -65,26 +71,28 @@ struct alignas(16) SideGridRecord {
   }
 
   constexpr bool is_node() const { return grey != 0; }
-  constexpr bool is_leaf() const { return grey == 0 && (leaf & kLeaf) != 0; }
-  constexpr bool is_listed() const { return grey == 0 && (leaf & kListed) != 0; }
-  constexpr bool is_nothing() const { return grey == 0 && leaf == kNothing; }
-  constexpr unsigned levels_above() const { return grey != 0 ? 0 : leaf & kLevelsAbove; }
+  constexpr bool is_leaf() const { return grey == 0 && (kind & kLeaf) != 0; }
+  constexpr bool is_listed() const { return grey == 0 && (kind & kListed) != 0; }
+  constexpr bool is_nothing() const { return grey == 0 && kind == kNothing; }
+  constexpr unsigned levels_above() const { return grey != 0 ? 0 : kind & kLevelsAbove; }
   /// The node as the mask has it.
-  constexpr MaskNode node() const { return {link, grey, leaf, black, inverted}; }
+  constexpr MaskNode node() const { return {link, 0, grey, black, inverted}; }
   /// The listed leaf as the mask has it, with a list that starts at `slot`.
   constexpr MaskListed listed(std::uint32_t slot) const {
-    return {kListedTag, black, static_cast<std::int8_t>((leaf & kMinIsMinus1) != 0 ? -1 : 0),
+    return {kListedTag, black, static_cast<std::int8_t>((kind & kMinIsMinus1) != 0 ? -1 : 0),
             inverted, slot};
   }
   /// The sign of the winding number in an octant of this cell; kUnknown where it is grey.
   constexpr int winding(unsigned octant) const {
     if (is_listed())
       return (touched >> octant & 1) != 0 ? kUnknown : corner_number(listed(0), octant);
-    const bool certain = grey != 0 ? (grey >> octant & 1) == 0 : leaf == kOneColour;
+    const bool certain = grey != 0 ? (grey >> octant & 1) == 0 : kind == kOneColour;
     return certain ? (black >> octant & 1) - (inverted >> octant & 1) : kUnknown;
   }
 
  private:
+  static constexpr bool has(MaskLink link) { return link >> 32 == 0; }
+
   static constexpr std::uint8_t kOneColour = 0, kLeaf = 0x80, kListed = 0x40, kMinIsMinus1 = 0x20,
                                 kNothing = 0x10, kLevelsAbove = 7;
 };

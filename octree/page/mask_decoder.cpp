@@ -132,10 +132,12 @@ const char* MaskDecoder::decode_record(std::size_t index) {
 const char* MaskDecoder::decode_node(MaskNode& node, bool has_link) {
   if (next_node_ == head().node_count) return "the counts of records do not add up";
   const std::size_t at = next_node_++;
-  node = {0, streams_.grey[at], streams_.leaf[at], streams_.black[at], streams_.inverted[at]};
-  if ((node.leaf & ~node.grey) != 0 || (node.grey & node.black) != 0 ||
-      (node.grey & node.inverted) != 0 || (node.black & node.inverted) != 0)
+  const unsigned grey = streams_.grey[at], leaf = streams_.leaf[at], black = streams_.black[at],
+                 inverted = streams_.inverted[at];
+  if ((leaf & ~grey) != 0 || (grey & black) != 0 || (grey & inverted) != 0 ||
+      (black & inverted) != 0)
     return "an octant has two colours";
+  node = {0, 0, streams_.grey[at], static_cast<std::uint8_t>(leaf | black), streams_.inverted[at]};
   if (has_link) return link_other_page(node);
   return node.grey == 0 ? nullptr : link_family(node);
 }
@@ -146,12 +148,12 @@ const char* MaskDecoder::link_family(MaskNode& node) {
   if (next_family_ > head().record_count) return "its families do not add up";
   std::size_t member = first;
   for (unsigned octant = 0; octant < 8; ++octant) {
-    if ((node.grey >> octant & 1) == 0) continue;
-    if (is_leaf(streams_.kinds[member++]) != ((node.leaf >> octant & 1) != 0))
+    if (!node.is_grey(octant)) continue;
+    if (is_leaf(streams_.kinds[member++]) != node.is_leaf(octant))
       return "a record is not of the kind its parent says";
   }
-  node.family = links_.make(info_.page_number - info_.first_page,
-                            static_cast<std::uint32_t>(first_record_slot_ + first));
+  node.set_family(links_.make(info_.page_number - info_.first_page,
+                              static_cast<std::uint32_t>(first_record_slot_ + first)));
   return nullptr;
 }
 
@@ -164,7 +166,7 @@ const char* MaskDecoder::link_other_page(MaskNode& node) {
   if (link.page <= info_.page_number - info_.first_page || link.page >= info_.page_count ||
       end * kMaskSlotBytes > info_.page_bytes)
     return "a link leads to a page that cannot be below it";
-  node.family = links_.make(link.page, static_cast<std::uint32_t>(slot));
+  node.set_family(links_.make(link.page, static_cast<std::uint32_t>(slot)));
   return nullptr;
 }
 

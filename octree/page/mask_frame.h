@@ -48,13 +48,32 @@ inline bool is_mask_node(const std::byte* frame, std::uint32_t slot) {
   return (nodes[slot / 64] >> slot % 64 & 1) != 0;
 }
 
-/// A divided grey cell. An octant without a bit in the four masks is white.
+/// A link to a family, in 40 bits. See MaskLinkFormat.
+using MaskLink = std::uint64_t;
+
+/// A divided grey cell. An octant without a bit in the masks is white.
 struct MaskNode {
-  std::uint32_t family;   ///< link to the first grey child; 0 if there is none
-  std::uint8_t grey;      ///< mask of octants that the surface may pass through
-  std::uint8_t leaf;      ///< mask of grey octants that are not divided further
-  std::uint8_t black;     ///< mask of octants inside, of positive winding number
-  std::uint8_t inverted;  ///< mask of octants inside, of negative winding number
+  std::uint32_t family_low;    ///< link to the first grey child; 0 if there is none
+  std::uint8_t family_high;    ///< bits 32 to 39 of this link
+  std::uint8_t grey;           ///< mask of octants that the surface may pass through
+  std::uint8_t leaf_or_black;  ///< of grey octants: not divided further; of others: inside, of
+                               ///< positive winding number
+  std::uint8_t inverted;       ///< mask of octants inside, of negative winding number
+
+  constexpr MaskLink family() const { return MaskLink{family_high} << 32 | family_low; }
+  constexpr void set_family(MaskLink link) {
+    family_low = static_cast<std::uint32_t>(link);
+    family_high = static_cast<std::uint8_t>(link >> 32);
+  }
+  constexpr bool is_grey(unsigned octant) const { return (grey >> octant & 1) != 0; }
+  /// Whether a grey octant is not divided further.
+  constexpr bool is_leaf(unsigned octant) const { return (leaf_or_black >> octant & 1) != 0; }
+  /// The sign of the winding number in an octant that is not grey.
+  constexpr int winding(unsigned octant) const {
+    return (leaf_or_black >> octant & 1) - (inverted >> octant & 1);
+  }
+  constexpr unsigned leaf() const { return leaf_or_black & grey; }
+  constexpr unsigned black() const { return leaf_or_black & ~unsigned{grey}; }
 };
 static_assert(sizeof(MaskNode) == kMaskSlotBytes);
 
@@ -168,20 +187,22 @@ constexpr bool is_special(const MaskCorners& record) {
 }
 constexpr bool is_listed(const MaskCorners& record) { return record[0] == kListedTag; }
 
-/// Layout of a link to a family: [page within the mask 32 - s][slot s]; s is log2(page bytes / 8).
+/// Layout of a link to a family: [page within the mask 40 - s][slot s]; s is log2(page bytes / 8).
 class MaskLinkFormat {
  public:
   explicit constexpr MaskLinkFormat(std::uint32_t page_bytes)
       : slot_bits_(static_cast<unsigned>(std::countr_zero(page_bytes)) - 3) {}
 
-  constexpr std::uint32_t page(std::uint32_t link) const { return link >> slot_bits_; }
-  constexpr std::uint32_t slot(std::uint32_t link) const {
-    return link & ((std::uint32_t{1} << slot_bits_) - 1);
+  constexpr std::uint32_t page(MaskLink link) const {
+    return static_cast<std::uint32_t>(link >> slot_bits_);
   }
-  constexpr std::uint32_t make(std::uint32_t page, std::uint32_t slot) const {
-    return page << slot_bits_ | slot;
+  constexpr std::uint32_t slot(MaskLink link) const {
+    return static_cast<std::uint32_t>(link) & ((std::uint32_t{1} << slot_bits_) - 1);
   }
-  constexpr std::uint64_t max_pages() const { return std::uint64_t{1} << (32 - slot_bits_); }
+  constexpr MaskLink make(std::uint32_t page, std::uint32_t slot) const {
+    return MaskLink{page} << slot_bits_ | slot;
+  }
+  constexpr std::uint64_t max_pages() const { return std::uint64_t{1} << (40 - slot_bits_); }
   /// Returns the number of slots of a page.
   constexpr std::uint32_t slots() const { return std::uint32_t{1} << slot_bits_; }
 

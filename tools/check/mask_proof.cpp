@@ -134,9 +134,9 @@ void MaskProof::check_cell(const GreyCell& grey) {
 
 void MaskProof::check_octants(const GreyCell& grey) {
   for (unsigned octant = 0; octant < 8; ++octant)
-    if ((grey.node->grey >> octant & 1) == 0)
+    if (!grey.node->is_grey(octant))
       check_colour(grey.page, grey.cell.child(octant),
-                   (grey.node->black >> octant & 1) - (grey.node->inverted >> octant & 1));
+                   grey.node->winding(octant));
 }
 
 void MaskProof::check_colour(std::uint32_t page, const GridCell& cell, int colour) {

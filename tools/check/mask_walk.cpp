@@ -106,8 +106,8 @@ void MaskWalk::assign_cells(Page& page, const MaskNode& node, const GridCell& ce
                             std::uint32_t first) {
   std::uint32_t member = first;
   for (unsigned octant = 0; octant < 8; ++octant) {
-    if ((node.grey >> octant & 1) == 0) continue;
-    if (page.is_node(member) == ((node.leaf >> octant & 1) != 0))
+    if (!node.is_grey(octant)) continue;
+    if (page.is_node(member) == node.is_leaf(octant))
       report_(
           {IssueCode::kLinkTarget, page.number, Error::kNowhere,
            fmt::format("record {} of the mask page is not of the kind its node states", member)});
@@ -146,7 +146,7 @@ void MaskWalk::visit_record(Page& page, std::uint32_t number, const GridCell& ce
   if (cell.level == octree::kLevels)
     return report_({IssueCode::kPageStructure, page.number, Error::kNowhere,
                     "a cell of the mask is divided below the finest level"});
-  const std::uint32_t family = grey.node->family;
+  const octree::MaskLink family = grey.node->family();
   const std::uint32_t to = links_.page(family);
   // As in any page of the mask.
   const std::uint32_t first = links_.slot(family) - page.header().first_record_slot;

@@ -87,7 +87,7 @@ class Surveyor {
     const auto count_bits = [](unsigned mask) {
       return static_cast<unsigned>(std::popcount(mask));
     };
-    const unsigned inside = grey.node->black | grey.node->inverted;
+    const unsigned inside = grey.node->black() | grey.node->inverted;
     MaskLevelRow& below = mask_level(grey.cell.level + 1);
     below.black += count_bits(inside);
     below.white += 8 - count_bits(inside | grey.node->grey);
