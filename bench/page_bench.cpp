@@ -44,7 +44,8 @@ class PageWalk {
   bool decode() {
     const std::size_t bytes = file_.header().page_bytes;
     return bool(query::decode_frame(
-        file_.header(), query::page_info(file_.header(), entry(), page()), {raw_.data(), entry().raw_bytes},
+        file_.header(), query::page_info(file_.header(), entry(), page()),
+        {raw_.data(), entry().raw_bytes},
         std::as_writable_bytes(std::span(slots_)).subspan(at_ % kFrames * bytes, bytes)));
   }
 

@@ -14,8 +14,8 @@ namespace planetree::octree {
 
 /// What a SideGrid has of a grey cell of a mask: a copy of a node, the link to a leaf, or the link
 /// to a leaf's list of blocks and the leaf's slab. A record has no room for links beyond 32 bits,
-/// so that it has nothing of cells in the last pages of very large masks. It does not straddle cache
-/// lines.
+/// so that it has nothing of cells in the last pages of very large masks. It does not straddle
+/// cache lines.
 struct alignas(16) SideGridRecord {
   static constexpr int kUnknown = 2;  ///< no sign of a winding number
 

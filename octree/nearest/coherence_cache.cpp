@@ -8,8 +8,8 @@
 #include "octree/geometry/work_limit.h"
 #include "octree/page/frame.h"
 #include "octree/traversal/bounds.h"
-#include "octree/traversal/overlap.h"
 #include "octree/traversal/link_resolver.h"
+#include "octree/traversal/overlap.h"
 #include "octree/traversal/tree_view.h"
 
 namespace planetree::octree {

@@ -23,8 +23,8 @@
 #include "octree/page/frame.h"
 #include "octree/traversal/bounds.h"
 #include "octree/traversal/frontier.h"
-#include "octree/traversal/node_kernels-inl.h"
 #include "octree/traversal/link_resolver.h"
+#include "octree/traversal/node_kernels-inl.h"
 #include "octree/traversal/tree_view.h"
 #include "octree/traversal/triangle_filter-inl.h"
 

@@ -19,7 +19,10 @@ namespace {
 class MaskDecoder {
  public:
   MaskDecoder(const PageInfo& info, std::span<std::byte> frame)
-      : info_(info), links_(info.page_bytes), block_links_(LinkFormat::numbered(info.page_bytes)), frame_(frame.data()) {}
+      : info_(info),
+        links_(info.page_bytes),
+        block_links_(LinkFormat::numbered(info.page_bytes)),
+        frame_(frame.data()) {}
 
   const char* decode(std::span<const std::byte> raw) {
     if (const char* fault = streams_.read(raw, info_.shape.float64)) return fault;

@@ -16,6 +16,7 @@ class LinkResolver {
   LinkResolver(const TreeInfo& tree, const PageReader& pages)
       : links_(tree.page_bytes, tree.shape.links),
         to_numbers_(tree.shape.links == LinkTarget::kNumber),
+        root_is_block_(LinkFormat::is_leaf(tree.root_link)),
         node_slots_(tree.shape.node_slots()),
         numbered_(LinkFormat::numbered(tree.page_bytes)),
         first_node_slot_(frame_head_slots(tree.page_bytes)),
@@ -33,7 +34,8 @@ class LinkResolver {
     const std::uint32_t record = links_.record(link);
     switch_to(page, work);
     if (!frame_) return nullptr;
-    if (to_numbers_) [[unlikely]] return LinkFormat::is_leaf(link) ? block(record) : node(record);
+    if (to_numbers_) [[unlikely]]
+      return record_at(link);
     // Links within a page were checked when it was decoded. Links between pages can be checked only
     // when both pages are decoded.
     if (page != from && !leads_to_record(link, record)) return nullptr;
@@ -90,7 +92,8 @@ class LinkResolver {
   template <std::size_t kNodeLines = kNearNodeSlots>
   [[gnu::always_inline]] void prefetch(std::uint32_t link) const {
     if (!pages_.frames.cells) return;
-    if (to_numbers_) [[unlikely]] return prefetch_by_number(link);
+    if (to_numbers_) [[unlikely]]
+      return prefetch_by_number(link);
     const std::byte* frame = pages_.frames.frame_of(links_.page(link));
     const std::size_t leaf = link >> 31;
     const std::byte* record = frame + links_.record(link) * kSlotBytes;
@@ -123,17 +126,26 @@ class LinkResolver {
  private:
   static constexpr std::size_t kBlockLines = 4;  // covers all of most blocks
 
+  const FrameHeader& header() const { return *reinterpret_cast<const FrameHeader*>(frame_); }
   void switch_to(std::uint32_t page, TraversalStats& work) {
     if (page == page_number_ && frame_) return;
     ++work.page_switches;
     page_number_ = page;
     frame_ = pages_.page(pages_.context, page);
   }
+  // Returns what a link to a number leads to in the current page; null if the page has no such
+  // record.
+  const std::byte* record_at(std::uint32_t link) const {
+    const std::uint32_t number = links_.record(link);
+    if (!LinkFormat::is_leaf(link)) return node(number);
+    // The header of a forged file may state that a tree is one block.
+    const bool is_in_tree = !root_is_block_ || header().node_count == 0;
+    return is_in_tree ? block(number) : nullptr;
+  }
   // Returns a node of the current page by its number; null if it has no such node.
   const std::byte* node(std::uint32_t number) const {
-    const auto& header = *reinterpret_cast<const FrameHeader*>(frame_);
-    const std::size_t slot = header.first_node_slot + number * node_slots_;
-    return number < header.node_count ? frame_ + slot * kSlotBytes : nullptr;
+    const std::size_t slot = header().first_node_slot + number * node_slots_;
+    return number < header().node_count ? frame_ + slot * kSlotBytes : nullptr;
   }
   // Returns a block of the current page by its number; null if it has no such block.
   const std::byte* block(std::uint32_t number) const {
@@ -160,19 +172,19 @@ class LinkResolver {
     }
   }
   bool leads_to_record(std::uint32_t link, std::uint32_t slot) const {
-    const auto& header = *reinterpret_cast<const FrameHeader*>(frame_);
     // Only the root of a tree may be a block. Links that a page had to its own blocks are right.
-    if (LinkFormat::is_leaf(link)) return slot >= header.first_block_slot;
-    if (slot < header.first_node_slot) return false;
-    const std::uint32_t offset = slot - header.first_node_slot;
+    if (LinkFormat::is_leaf(link)) return slot >= header().first_block_slot;
+    if (slot < header().first_node_slot) return false;
+    const std::uint32_t offset = slot - header().first_node_slot;
     // Constant divisors: a division by node_slots_ would take as long as the node's bounds.
     const bool aligned = node_slots_ == kNodeSlots ? offset % kNodeSlots == 0
                                                    : offset % (kNodeSlots + kMomentSlots) == 0;
-    return aligned && offset < header.node_count * node_slots_;
+    return aligned && offset < header().node_count * node_slots_;
   }
 
   const LinkFormat links_;
   const bool to_numbers_;  // the links
+  const bool root_is_block_;
   const unsigned node_slots_;
   const LinkFormat numbered_;
   const std::size_t first_node_slot_;

@@ -9,8 +9,9 @@
 #include "octree/geometry/triangle_distance.h"
 #include "octree/page/frame.h"
 
-/// A tree as traversals see it: the data of its header, and access to its pages. FrameTable and FrameReleaseHook are the interface between the cache, which holds
-/// frames, and readers that keep or prefetch pointers to them.
+/// A tree as traversals see it: the data of its header, and access to its pages. FrameTable and
+/// FrameReleaseHook are the interface between the cache, which holds frames, and readers that keep
+/// or prefetch pointers to them.
 namespace planetree::octree {
 
 /// Addresses of frames for prefetching. Nothing is read through these addresses, so that a page may

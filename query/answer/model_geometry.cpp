@@ -15,8 +15,7 @@ octree::TreeInfo tree_info(const storage::FileHeader& header, const Scale& scale
   octree::TreeInfo tree;
   tree.page_bytes = header.page_bytes;
   tree.shape = block_shape(header);
-  tree.root_link =
-      octree::root_link_of(header.page_bytes, tree.shape.links, 0, model.node_count);
+  tree.root_link = octree::root_link_of(header.page_bytes, tree.shape.links, 0, model.node_count);
   tree.record_count = model.node_count + model.block_count;
   tree.box_lower = point_in_frame(scale, model.box_lower);
   tree.box_upper = point_in_frame(scale, model.box_upper);

@@ -44,7 +44,8 @@ Result<void> check_page_limits(const storage::FileHeader& header) noexcept {
   const std::uint32_t page_bytes = header.page_bytes;
   const std::uint32_t tree_pages = std::min(header.first_field_page(), header.page_count);
   const std::uint32_t mask_pages = header.model.mask_page_count;
-  if (tree_pages > octree::LinkFormat::numbered(page_bytes).max_pages()) return too_many(tree_pages, header);
+  if (tree_pages > octree::LinkFormat::numbered(page_bytes).max_pages())
+    return too_many(tree_pages, header);
   if (mask_pages > octree::MaskLinkFormat(page_bytes).max_pages())
     return too_many(mask_pages, header);
   return {};

@@ -31,8 +31,8 @@ TreePages::TreePages(const std::filesystem::path& path) {
   model_ = header.model;
   shape_.float64 = model_.vertex_kind == storage::VertexKind::kFloat64;
   shape_.wide_ids = model_.triangle_id_bytes == 8;
-  links_ = octree::LinkFormat(header.page_bytes);
-  root_link_ = octree::root_link_of(header.page_bytes, 0, model_.node_count);
+  links_ = octree::LinkFormat(header.page_bytes, shape_.links);
+  root_link_ = octree::root_link_of(header.page_bytes, shape_.links, 0, model_.node_count);
   std::vector<std::byte> stored(header.max_stored_bytes), raw(header.max_raw_bytes);
   for (std::uint32_t page = 0; page < header.first_cap_page(); ++page) {
     const storage::PageEntry entry = need(file.entry(page));
@@ -51,7 +51,7 @@ TreePages::TreePages(const std::filesystem::path& path) {
 }
 
 const std::byte* TreePages::record(std::uint32_t link) const {
-  return frames_[links_.page(link)].get() + links_.slot(link) * octree::kSlotBytes;
+  return frames_[links_.page(link)].get() + links_.record(link) * octree::kSlotBytes;
 }
 
 const octree::Node& TreePages::node(std::uint32_t link) const {

@@ -41,7 +41,7 @@ class TreePages {
 
   storage::ModelRecord model_{};
   octree::BlockShape shape_;
-  octree::LinkFormat links_{storage::kMinPageBytes};
+  octree::LinkFormat links_ = octree::LinkFormat::numbered(storage::kMinPageBytes);
   std::uint32_t root_link_ = 0;
   std::vector<std::unique_ptr<std::byte[], Free>> frames_;
 };

@@ -21,12 +21,12 @@ constexpr std::uint32_t kPage = 7, kTreePages = 3, kPageBytes = 4096;
 
 void read_all(const std::byte* frame, AttributeShape shape) {
   const AttributeView view(frame, shape);
-  const LinkFormat links(kPageBytes);
+  const LinkFormat links = LinkFormat::numbered(kPageBytes);
   std::uint64_t sum = 0;
   for (std::uint32_t i = 0; i < view.count(); ++i) {
     const std::uint32_t link = view.link(i);
     if (link != kNoLink && (!LinkFormat::is_leaf(link) || links.page(link) >= kTreePages ||
-                            links.number(link) >= max_page_blocks(kPageBytes)))
+                            links.record(link) >= max_page_blocks(kPageBytes)))
       std::abort();
     if (shape.has_colors()) sum += view.colors(i)[2].alpha;
     if (shape.has_uvs()) sum += view.uvs(i)[2].v < 0 ? 1 : 0;

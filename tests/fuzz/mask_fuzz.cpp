@@ -51,7 +51,7 @@ void check(const MaskBlocks& blocks, const LinkFormat& links, std::uint32_t max_
   for (unsigned i = 0; i < blocks.count; ++i) {
     const std::uint32_t link = blocks.links[i];
     if (!LinkFormat::is_leaf(link) || links.page(link) >= kFirstPage ||
-        links.number(link) >= max_blocks)
+        links.record(link) >= max_blocks)
       std::abort();
     if (i > 0 && blocks.links[i - 1] >= link) std::abort();
     if (blocks.octants[i] == 0) std::abort();
@@ -67,7 +67,7 @@ void check(const MaskLookup& found, const Point& point, const MaskInfo& mask) {
       !std::all_of(found.corners.begin(), found.corners.end(), fits))
     std::abort();
   if (found.on_surface && found.kind != Kind::kPlanes) std::abort();
-  check(found.blocks, LinkFormat(mask.page_bytes), max_page_blocks(mask.page_bytes));
+  check(found.blocks, LinkFormat::numbered(mask.page_bytes), max_page_blocks(mask.page_bytes));
   if (found.blocks.count > 0 && (found.kind != Kind::kCorners || found.cell.level == kLevels))
     std::abort();
   const CellGrid grid(mask.lower);

@@ -29,6 +29,7 @@ constexpr std::uint8_t kWideIds = 2;
 constexpr std::uint8_t kLargePages = 4;
 constexpr std::uint8_t kRootIsBlock = 8;
 constexpr std::uint8_t kMoments = 16;
+constexpr std::uint8_t kNumbers = 32;
 constexpr std::uint32_t kPageCount = 64;
 
 struct Pages {
@@ -96,10 +97,11 @@ void decode_and_query(std::uint8_t choices, std::span<const std::byte> first,
   PageInfo info;
   info.page_bytes = (choices & kLargePages) != 0 ? 65536 : 4096;
   info.page_count = (choices & kRootIsBlock) != 0 ? 1 : kPageCount;
-  info.shape = {(choices & kFloat64) != 0, (choices & kWideIds) != 0, (choices & kMoments) != 0};
+  info.shape = {(choices & kFloat64) != 0, (choices & kWideIds) != 0, (choices & kMoments) != 0,
+                (choices & kNumbers) != 0 ? LinkTarget::kNumber : LinkTarget::kSlot};
   Frame root(info.page_bytes), other(info.page_bytes);
   if (!decode(first, info, root)) return;
-  info.page_number = 1 + choices / 32;
+  info.page_number = 1 + choices / 64;
   Pages pages{&root, decode(second, info, other) ? &other : nullptr};
   TreeInfo tree;
   tree.page_bytes = info.page_bytes;
@@ -110,7 +112,7 @@ void decode_and_query(std::uint8_t choices, std::span<const std::byte> first,
   tree.core_lower = tree.box_lower;
   tree.core_upper = tree.box_upper;
   const bool leaf = (choices & kRootIsBlock) != 0;
-  tree.root_link = root_link_of(info.page_bytes, 0, leaf ? 0 : 1);
+  tree.root_link = root_link_of(info.page_bytes, info.shape.links, 0, leaf ? 0 : 1);
   query_tree(tree, pages);
 }
 

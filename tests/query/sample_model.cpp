@@ -201,7 +201,8 @@ bool SampleModel::interval_holds(const ClosestPoint& answer, const Vec3& query) 
          answer.upper >= known.distance - known.error;
 }
 
-void build_soup(const Soup& soup, const std::filesystem::path& path, BuildOptions options) {
+void build_soup(const Soup& soup, const std::filesystem::path& path, BuildOptions options,
+                std::uint32_t page_bytes) {
   std::vector<Vec3> vertices;
   std::vector<TriangleVertices> triangles;
   for (const auto& corners : soup) {
@@ -209,7 +210,7 @@ void build_soup(const Soup& soup, const std::filesystem::path& path, BuildOption
     vertices.insert(vertices.end(), corners.begin(), corners.end());
     triangles.push_back({first, first + 1, first + 2});
   }
-  options.page_bytes = 4096;
+  options.page_bytes = page_bytes;
   const auto report = build(BuildInput(vertices, triangles), path, options);
   if (!report) give_up(report.error());
 }

@@ -56,8 +56,9 @@ class SampleModel {
   octree::SampleTree sample_;
 };
 
-/// Builds the .ptree file of a soup by the public interface, with pages of 4096 bytes.
-void build_soup(const Soup& soup, const std::filesystem::path& path, BuildOptions options = {});
+/// Builds the .ptree file of a soup by the public interface, with pages of `page_bytes`.
+void build_soup(const Soup& soup, const std::filesystem::path& path, BuildOptions options = {},
+                std::uint32_t page_bytes = 4096);
 
 Probe make_probe(const Model& model);
 

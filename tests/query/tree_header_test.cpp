@@ -35,21 +35,21 @@ void expect_refused(std::uint32_t page_bytes, const Pages& pages, const std::str
 }
 
 TEST(TreeHeader, AllowsAsManyPagesAsLinksCanTellApart) {
-  EXPECT_TRUE(check_tree_header(header_with(4096, {.surface = 1U << 25})));
-  EXPECT_TRUE(check_tree_header(header_with(65536, {.surface = 1U << 20, .caps = 1U << 20})));
-  EXPECT_TRUE(check_tree_header(header_with(65536, {.surface = 1, .mask = 1U << 19})));
+  EXPECT_TRUE(check_tree_header(header_with(4096, {.surface = (1U << 27) - 1})));
+  EXPECT_TRUE(check_tree_header(header_with(65536, {.surface = 1U << 22, .caps = (1U << 22) - 1})));
+  EXPECT_TRUE(check_tree_header(header_with(65536, {.surface = 1, .mask = 1U << 27})));
 }
 
 TEST(TreeHeader, RefusesMorePagesOfTreesAndOfTheMask) {
-  expect_refused(4096, {.surface = (1U << 25) + 1}, "33554433");
-  expect_refused(65536, {.surface = 1U << 21, .caps = 1}, "2097153");
-  expect_refused(65536, {.surface = 1, .mask = (1U << 19) + 1}, "524289");
+  expect_refused(4096, {.surface = 1U << 27}, "134217728");
+  expect_refused(65536, {.surface = (1U << 23) - 1, .caps = 1}, "8388608");
+  expect_refused(65536, {.surface = 1, .mask = (1U << 27) + 1}, "134217729");
 }
 
 // No link in a record leads to the pages of a field or of attributes.
 TEST(TreeHeader, DoesNotCountOtherPages) {
-  EXPECT_TRUE(check_tree_header(
-      header_with(65536, {.surface = 1U << 21, .field = 9, .attributes = 1U << 30, .mask = 9})));
+  EXPECT_TRUE(check_tree_header(header_with(
+      65536, {.surface = (1U << 23) - 1, .field = 9, .attributes = 1U << 30, .mask = 9})));
 }
 
 }  // namespace

@@ -35,7 +35,8 @@ class HeightFieldCheck {
     if (!parts_.header()->model.has_side_layer())
       return report(page, index, "marked as a height field, but the file has no side layer");
     if (query::region_of(parts_.header()->model).has_walls())
-      return report(page, index, "marked as a height field, but the file is of a region with walls");
+      return report(page, index,
+                    "marked as a height field, but the file is of a region with walls");
     if (!is_proven(block) && !unreadable_)
       report(page, index, "marked as a height field, which cannot be proven");
   }

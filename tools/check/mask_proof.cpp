@@ -135,8 +135,7 @@ void MaskProof::check_cell(const GreyCell& grey) {
 void MaskProof::check_octants(const GreyCell& grey) {
   for (unsigned octant = 0; octant < 8; ++octant)
     if (!grey.node->is_grey(octant))
-      check_colour(grey.page, grey.cell.child(octant),
-                   grey.node->winding(octant));
+      check_colour(grey.page, grey.cell.child(octant), grey.node->winding(octant));
 }
 
 void MaskProof::check_colour(std::uint32_t page, const GridCell& cell, int colour) {

@@ -70,8 +70,7 @@ const char* fault_of_rules(const octree::RawStreams& streams, const FrameView& f
     return "a vertex is there twice or has a coordinate of -0; build the file again";
   bool are_in_order = true;
   frame.for_each_block([&](std::uint32_t i, const octree::BlockView& block) {
-    are_in_order =
-        are_in_order && are_vertices_used_in_order(block, streams.new_counts[i]);
+    are_in_order = are_in_order && are_vertices_used_in_order(block, streams.new_counts[i]);
   });
   return are_in_order ? nullptr
                       : "vertices are not in the order of their first use; build the file again";

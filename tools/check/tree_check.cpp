@@ -77,9 +77,7 @@ class TreeCheck {
   void report_whole(IssueCode code, std::string message) {
     report_.issues.add({code, Error::kNowhere, Error::kNowhere, std::move(message)});
   }
-  std::uint64_t key_of(std::uint32_t node) const {
-    return std::uint64_t{page_} << 32 | node;
-  }
+  std::uint64_t key_of(std::uint32_t node) const { return std::uint64_t{page_} << 32 | node; }
 
   FileParts& parts_;
   const storage::FileHeader& header_;
@@ -97,8 +95,8 @@ class TreeCheck {
   std::uint32_t page_ = 0;
   std::uint32_t ordinal_ = 0;  // its rank among the pages of its octcode
   std::optional<FrameView> frame_;
-  std::vector<Chain> node_bounds_;               // by node
-  std::vector<Chain> block_bounds_;              // by block
+  std::vector<Chain> node_bounds_;   // by node
+  std::vector<Chain> block_bounds_;  // by block
 };
 
 bool TreeCheck::run(const CheckProgress& progress) {

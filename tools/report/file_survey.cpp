@@ -133,8 +133,7 @@ class Surveyor {
       if (node_depths[i]) add_node(page, frame, i, *node_depths[i], node_depths, block_depths);
     bool reached = true;
     if (header.node_count == 0)
-      if (const auto depth = pending_.take({page, 0, true}))
-        block_depths[0] = *depth;
+      if (const auto depth = pending_.take({page, 0, true})) block_depths[0] = *depth;
     frame.for_each_block([&](std::uint32_t index, const octree::BlockView& block) {
       const std::optional<std::uint32_t>& depth = block_depths[index];
       reached = reached && depth.has_value();

@@ -40,7 +40,7 @@ void part_blocks(WideTree& tree, const RecordSlots& slots, std::uint32_t page_by
 /// share pages, in Morton order; subtrees that hang from different pages do not. So a page is read
 /// only after its one parent page.
 ///
-/// errors  kBadArgument: more pages than links of 31 bits can address, 2^21 for pages of 64 KiB.
+/// errors  kBadArgument: more pages than links can address, 2^23 - 1 for pages of 64 KiB.
 Result<PagePlan> plan_pages(const WideTree& tree, const std::vector<MortonKey>& keys,
                             const RecordSlots& slots, std::uint32_t page_bytes);
 

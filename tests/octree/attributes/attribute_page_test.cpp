@@ -87,7 +87,8 @@ TEST(AttributePage, RestoresWhatWasStored) {
     const AttributeView view(frame.data(), shape);
     ASSERT_EQ(view.count(), kCount);
     for (std::uint32_t i = 0; i < kCount; ++i) {
-      EXPECT_EQ(view.link(i), i == 3 ? kNoLink : LinkFormat(kPageBytes).make_numbered(link_of(i)));
+      EXPECT_EQ(view.link(i),
+                i == 3 ? kNoLink : LinkFormat::numbered(kPageBytes).make_block(link_of(i)));
       if (shape.has_colors()) {
         EXPECT_EQ(view.colors(i), colors_of(i));
       }

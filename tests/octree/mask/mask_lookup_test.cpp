@@ -229,11 +229,11 @@ TEST_F(MaskLookupTest, ChecksLinksBetweenPages) {
       if (!is_node(pages_.frame(page), slot)) continue;
       auto& node = *const_cast<MaskNode*>(
           reinterpret_cast<const MaskNode*>(slot_of(pages_.frame(page), slot)));
-      if (node.grey == 0 || links.page(node.family) == page) continue;
-      const std::uint32_t below = links.page(node.family);
+      if (node.grey == 0 || links.page(node.family()) == page) continue;
+      const std::uint32_t below = links.page(node.family());
       // Slots beyond the records, before them, and of another record.
-      const std::uint32_t slots[] = {511, 0, links.slot(node.family) ^ 8};
-      node.family = links.make(below, slots[changed++ % 3]);
+      const std::uint32_t slots[] = {511, 0, links.slot(node.family()) ^ 8};
+      node.set_family(links.make(below, slots[changed++ % 3]));
     }
   }
   ASSERT_GT(changed, 30u);

@@ -106,7 +106,7 @@ class RandomMask {
     constexpr std::uint32_t kNumbers = max_page_blocks(4096), kPages = 12;
     static_assert((kPages - 1) << 8 < kRandomMaskPage);
     const std::uint32_t at = bits % (kNumbers * kPages);
-    return LinkFormat(1 << 20).make_numbered(
+    return LinkFormat::numbered(1 << 20).make_block(
         {at / kNumbers, static_cast<std::uint16_t>(at % kNumbers)});
   }
 

@@ -276,13 +276,16 @@ TEST(Nearest, RefusesLinksThatMissARecord) {
 
 // The header of a forged file may state that the tree is one block.
 TEST(Nearest, RefusesABlockAsTheRootOfATreeWithNodes) {
-  const SampleTree sample = build_sample(sphere(4), 4096);
-  SamplePages pages(sample);
-  TreeInfo info = tree_info(sample);
-  info.root_link = root_link_of(4096, 0, 0);
-  TraversalStats work;
-  EXPECT_EQ(nearest(info, Point(0, 0, 0), {}, pages.reader(), work).status, Status::kDegraded);
-  EXPECT_EQ(work.blocks, 0u);
+  SampleTree sample = build_sample(sphere(4), 4096);
+  for (const LinkTarget target : {LinkTarget::kSlot, LinkTarget::kNumber}) {
+    sample.shape.links = target;
+    SamplePages pages(sample);
+    TreeInfo info = tree_info(sample);
+    info.root_link = root_link_of(4096, target, 0, 0);
+    TraversalStats work;
+    EXPECT_EQ(nearest(info, Point(0, 0, 0), {}, pages.reader(), work).status, Status::kDegraded);
+    EXPECT_EQ(work.blocks, 0u);
+  }
 }
 
 TEST(Nearest, EndsOnForgedRecordCounts) {

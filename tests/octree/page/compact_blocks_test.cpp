@@ -22,7 +22,7 @@ Forms forms_of(const Soup& soup) {
   for (std::uint32_t i = 0; i < sample.mesh.size(); ++i)
     expected[sample.mesh.index(i)] = sample.mesh.corners(i);
   Forms forms;
-  const LinkFormat links(sample.plan.page_bytes);
+  const LinkFormat links = LinkFormat::numbered(sample.plan.page_bytes);
   std::uint32_t next = 0;  // behind the block before
   std::vector<bool> found(soup.size());
   each_block(sample, SamplePages(sample), [&](const BlockView& block, std::uint32_t link) {

@@ -11,7 +11,7 @@ constexpr std::uint32_t kPageSizes[] = {4096, 8192, 16384, 32768, 65536, 131072,
 
 TEST(LinkFormat, RoundTripsKindPageAndSlot) {
   for (const std::uint32_t page_bytes : kPageSizes) {
-    const LinkFormat links(page_bytes);
+    const LinkFormat links(page_bytes, LinkTarget::kSlot);
     const auto last_slot = static_cast<std::uint32_t>(page_bytes / kSlotBytes - 1);
     for (const std::uint32_t page : {0u, 1u, links.max_pages() / 3, links.max_pages() - 1})
       for (const std::uint32_t slot : {0u, 2u, last_slot})
@@ -19,38 +19,54 @@ TEST(LinkFormat, RoundTripsKindPageAndSlot) {
           const std::uint32_t link = links.make(leaf, page, slot);
           EXPECT_EQ(LinkFormat::is_leaf(link), leaf);
           EXPECT_EQ(links.page(link), page);
-          EXPECT_EQ(links.slot(link), slot);
+          EXPECT_EQ(links.record(link), slot);
         }
   }
 }
 
 TEST(LinkFormat, LimitsPageCountByPageSize) {
-  EXPECT_EQ(LinkFormat(4096).max_pages(), 1u << 25);
-  EXPECT_EQ(LinkFormat(65536).max_pages(), 1u << 21);
-  EXPECT_EQ(LinkFormat(262144).max_pages(), 1u << 19);
+  const auto of_slots = [](std::uint32_t page_bytes) {
+    return LinkFormat(page_bytes, LinkTarget::kSlot).max_pages();
+  };
+  EXPECT_EQ(of_slots(4096), 1u << 25);
+  EXPECT_EQ(of_slots(65536), 1u << 21);
+  EXPECT_EQ(of_slots(262144), 1u << 19);
+  for (const std::uint32_t page_bytes : kPageSizes)
+    EXPECT_EQ(LinkFormat::numbered(page_bytes).max_pages(), 4 * of_slots(page_bytes) - 1);
+}
+
+TEST(LinkFormat, HasNumbersWhereSlotsDoNotSuffice) {
+  for (const std::uint32_t page_bytes : kPageSizes) {
+    const std::uint32_t most = LinkFormat(page_bytes, LinkTarget::kSlot).max_pages();
+    EXPECT_EQ(LinkFormat::of_pages(page_bytes, 0).target(), LinkTarget::kSlot);
+    EXPECT_EQ(LinkFormat::of_pages(page_bytes, most).target(), LinkTarget::kSlot);
+    EXPECT_EQ(LinkFormat::of_pages(page_bytes, most + 1).target(), LinkTarget::kNumber);
+  }
 }
 
 TEST(LinkFormat, RoundTripsNumberedLinks) {
   for (const std::uint32_t page_bytes : kPageSizes) {
-    const LinkFormat links(page_bytes);
+    const LinkFormat links = LinkFormat::numbered(page_bytes);
     const auto last = static_cast<std::uint16_t>(max_page_blocks(page_bytes) - 1);
     for (const std::uint16_t number : {std::uint16_t{0}, std::uint16_t{1}, last}) {
-      const std::uint32_t link = links.make_numbered({links.max_pages() - 1, number});
+      const std::uint32_t link = links.make_block({links.max_pages() - 1, number});
       EXPECT_TRUE(LinkFormat::is_leaf(link));
       EXPECT_EQ(links.page(link), links.max_pages() - 1);
-      EXPECT_EQ(links.number(link), number);
+      EXPECT_EQ(links.record(link), number);
+      EXPECT_NE(link, ~std::uint32_t{0});
     }
   }
 }
 
 TEST(RootLink, LeadsToTheFirstRecordOfTheFirstPage) {
-  for (const std::uint32_t page_bytes : kPageSizes) {
-    const LinkFormat links(page_bytes);
-    const std::uint32_t node = root_link_of(page_bytes, 7, 1),
-                        block = root_link_of(page_bytes, 7, 0);
-    EXPECT_EQ(node, node_link(page_bytes, {}, {7, 0}));
-    EXPECT_EQ(block, links.make(true, 7, links.slot(node)));
-  }
+  for (const std::uint32_t page_bytes : kPageSizes)
+    for (const LinkTarget target : {LinkTarget::kSlot, LinkTarget::kNumber}) {
+      const LinkFormat links(page_bytes, target);
+      const std::uint32_t node = root_link_of(page_bytes, target, 7, 1),
+                          block = root_link_of(page_bytes, target, 7, 0);
+      EXPECT_EQ(node, node_link(page_bytes, {.links = target}, {7, 0}));
+      EXPECT_EQ(block, links.make(true, 7, links.record(node)));
+    }
 }
 
 TEST(FrameHead, HasASlotNumberForEveryBlock) {
@@ -69,11 +85,17 @@ TEST(FrameHead, LeavesSlotsForTheNodesOfAPage) {
   for (const std::uint32_t page_bytes : kPageSizes)
     for (const BlockShape& shape : {BlockShape{}, BlockShape{.moments = true}}) {
       const auto last = static_cast<std::uint16_t>(max_page_nodes(page_bytes, shape) - 1);
-      const LinkFormat links(page_bytes);
+      const LinkFormat links(page_bytes, LinkTarget::kSlot);
       const std::uint32_t link = node_link(page_bytes, shape, {5, last});
       EXPECT_EQ(links.page(link), 5u);
-      EXPECT_LE(links.slot(link) + shape.node_slots(), page_bytes / kSlotBytes);
-      EXPECT_GT(links.slot(link) + 2 * shape.node_slots(), page_bytes / kSlotBytes);
+      EXPECT_LE(links.record(link) + shape.node_slots(), page_bytes / kSlotBytes);
+      EXPECT_GT(links.record(link) + 2 * shape.node_slots(), page_bytes / kSlotBytes);
+      BlockShape numbered_shape = shape;
+      numbered_shape.links = LinkTarget::kNumber;
+      const LinkFormat numbers = LinkFormat::numbered(page_bytes);
+      const std::uint32_t numbered = node_link(page_bytes, numbered_shape, {5, last});
+      EXPECT_EQ(numbers.page(numbered), 5u);
+      EXPECT_EQ(numbers.record(numbered), last);
     }
 }
 

@@ -23,8 +23,8 @@ class MaskDamage : public testing::TestWithParam<bool> {
     for (unsigned i = 0; i < blocks.count; ++i) {
       EXPECT_NE(blocks.octants[i], 0);
       EXPECT_TRUE(LinkFormat::is_leaf(blocks.links[i]));
-      EXPECT_LT(LinkFormat(4096).page(blocks.links[i]), kRandomMaskPage);
-      EXPECT_LT(LinkFormat(4096).number(blocks.links[i]), max_page_blocks(4096));
+      EXPECT_LT(LinkFormat::numbered(4096).page(blocks.links[i]), kRandomMaskPage);
+      EXPECT_LT(LinkFormat::numbered(4096).record(blocks.links[i]), max_page_blocks(4096));
       EXPECT_TRUE(i == 0 || blocks.links[i - 1] < blocks.links[i]);
     }
     EXPECT_NE(found.corners[0], kListedTag);

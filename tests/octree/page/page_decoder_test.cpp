@@ -52,7 +52,7 @@ using Found = std::map<std::uint64_t, std::array<std::array<double, 3>, 3>>;
 class Walk {
  public:
   Walk(const SampleTree& sample, const SamplePages& pages)
-      : sample_(sample), pages_(pages), links_(sample.plan.page_bytes) {
+      : sample_(sample), pages_(pages), links_(sample.plan.page_bytes, sample.shape.links) {
     follow(tree_info(sample).root_link, kMaxHeight + 1);
   }
 

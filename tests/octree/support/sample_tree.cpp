@@ -196,7 +196,7 @@ PageInfo page_info(const SampleTree& sample, std::uint32_t page) {
 TreeInfo tree_info(const SampleTree& sample) {
   TreeInfo info;
   info.page_bytes = sample.plan.page_bytes;
-  info.root_link = root_link_of(info.page_bytes, 0, sample.tree.nodes.size());
+  info.root_link = root_link_of(info.page_bytes, sample.shape.links, 0, sample.tree.nodes.size());
   info.shape = sample.shape;
   info.record_count = sample.tree.nodes.size() + sample.tree.blocks.size();
   info.box_lower = sample.mesh.frame.lower();

@@ -133,15 +133,16 @@ class SamplePages {
   const std::vector<std::byte>& raw(std::uint32_t page) const { return raw_[page]; }
   const SampleFrame& frame(std::uint32_t page) const { return frames_[page]; }
   SampleFrame& frame(std::uint32_t page) { return frames_[page]; }
-  /// The record that a link leads to.
+  /// The record that a link to a slot leads to.
   const std::byte* record(const LinkFormat& links, std::uint32_t link) const {
-    return frames_[links.page(link)].data() + links.slot(link) * kSlotBytes;
+    return frames_[links.page(link)].data() + links.record(link) * kSlotBytes;
   }
 
   /// The node that a link of the page plan leads to.
   const std::byte* node_record(const SampleTree& sample, StoredLink node) const {
     const std::uint32_t page_bytes = sample.plan.page_bytes;
-    return record(LinkFormat(page_bytes), node_link(page_bytes, sample.shape, node));
+    return record(LinkFormat(page_bytes, sample.shape.links),
+                  node_link(page_bytes, sample.shape, node));
   }
 
   void withhold(std::uint32_t page) { withheld_[page] = true; }

@@ -19,7 +19,7 @@ void add(NearbySubtrees& list, float x, std::uint32_t link) {
   list.add(1);
 }
 
-constexpr LinkFormat kLinks(65536);
+constexpr LinkFormat kLinks(65536, LinkTarget::kSlot);
 constexpr std::uint32_t kToBlock = kLinks.make(true, 1, 40), kToNode = kLinks.make(false, 2, 50);
 
 TEST(NearbySubtrees, KeepsBoxesAndLinks) {

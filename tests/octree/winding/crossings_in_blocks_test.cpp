@@ -133,7 +133,7 @@ TEST(CrossingsInBlocks, AreIncompleteWithoutAPage) {
   ListedOctants listed(sphere(5));
   const auto [segment, blocks] = listed.one_of(2);
   ASSERT_GE(blocks.size(), 2u);
-  listed.pages.withhold(LinkFormat(4096).page(blocks[0]));
+  listed.pages.withhold(LinkFormat::numbered(4096).page(blocks[0]));
   EXPECT_FALSE(listed.count(segment, blocks).complete);
 }
 
@@ -142,14 +142,13 @@ TEST(CrossingsInBlocks, AreIncompleteWhereALinkLeadsToNoBlock) {
   ListedOctants listed(sphere(5));
   const auto [segment, blocks] = listed.one_of(2);
   ASSERT_GE(blocks.size(), 2u);
-  const LinkFormat links(4096);
+  const LinkFormat links = LinkFormat::numbered(4096);
   const std::uint32_t page = links.page(blocks[0]);
   const std::uint16_t count = listed.pages.frame(page).header().block_count;
   for (const std::uint32_t wrong :
-       {listed.tree.root_link, blocks[0] & ~LinkFormat::kLeafBit,
-        links.make_numbered({page, count}), links.make_numbered({page, 15}),
-        links.make_numbered({page, 16}), links.make_numbered({page, 63}),
-        links.make_numbered({static_cast<std::uint32_t>(listed.pages.size()), 0}), 0xffffffffu})
+       {listed.tree.root_link, blocks[0] & ~LinkFormat::kLeafBit, links.make_block({page, count}),
+        links.make_block({page, 15}),
+        links.make_block({static_cast<std::uint32_t>(listed.pages.size()), 0}), 0xffffffffu})
     for (std::size_t at = 0; at < blocks.size(); ++at) {
       std::vector<std::uint32_t> changed = blocks;
       changed[at] = wrong;

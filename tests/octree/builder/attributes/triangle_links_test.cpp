@@ -24,7 +24,7 @@ std::map<std::uint64_t, std::uint32_t> links_of(const ChunkedTree& sample) {
     for (std::uint16_t block = 0; block < frame.header().block_count; ++block) {
       const BlockView view(frame.data() + slot * kSlotBytes, sample.shape);
       for (unsigned i = 0; i < view.triangle_count(); ++i)
-        links[view.id(i)] = LinkFormat(info.page_bytes).make_numbered({number, block});
+        links[view.id(i)] = LinkFormat::numbered(info.page_bytes).make_block({number, block});
       slot += view.slots();
     }
   }

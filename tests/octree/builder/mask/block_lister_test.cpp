@@ -177,7 +177,7 @@ TEST(BlockLister, IsLostWhereAPageIsMissing) {
     if (lister.list(cell, blocks) != Listing::kListed) continue;
     bool in_taken = false;
     for (unsigned i = 0; i < blocks.count; ++i)
-      in_taken = in_taken || LinkFormat(4096).page(blocks.links[i]) == taken;
+      in_taken = in_taken || LinkFormat::numbered(4096).page(blocks.links[i]) == taken;
     (in_taken ? lost : kept).push_back(cell);
   }
   lister.pages.withhold(taken);

@@ -100,15 +100,15 @@ class FrameWalk {
   void look_at_node(const Step& step, const MaskEntry& entry, std::vector<Step>& queue) {
     const auto& node = *reinterpret_cast<const MaskNode*>(slot_of(frame(step), step.slot));
     EXPECT_EQ(node.grey, entry.grey);
-    EXPECT_EQ(node.leaf, entry.leaf);
-    EXPECT_EQ(node.black, entry.black);
+    EXPECT_EQ(node.leaf(), entry.leaf);
+    EXPECT_EQ(node.black(), entry.black);
     EXPECT_EQ(node.inverted, entry.inverted);
     if (entry.grey == 0) {
-      EXPECT_EQ(node.family, 0u);
+      EXPECT_EQ(node.family(), 0u);
       return;
     }
-    const std::uint32_t page = links_.page(node.family);
-    std::uint32_t slot = links_.slot(node.family);
+    const std::uint32_t page = links_.page(node.family());
+    std::uint32_t slot = links_.slot(node.family());
     const StoredLink planned = pages_.plan().families[step.entry];
     EXPECT_EQ(page, planned.page);
     EXPECT_EQ(slot, mask_head_slots(pages_.plan().page_bytes) + planned.record);

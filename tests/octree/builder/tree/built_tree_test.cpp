@@ -44,7 +44,7 @@ TEST(BuiltTree, HoldsTheTrianglesOfAllChunks) {
     EXPECT_TRUE(BoxWalk(tree, tree.box_lower, tree.box_upper, frames.reader(), work)
                     .run(~std::uint64_t{0}, [&](const BlockView& block, std::uint32_t link) {
                       EXPECT_TRUE(links.insert(link).second);
-                      EXPECT_LT(LinkFormat(tree.page_bytes).page(link),
+                      EXPECT_LT(LinkFormat(tree.page_bytes, tree.shape.links).page(link),
                                 sample.tree->pages().size());
                       for (unsigned i = 0; i < block.triangle_count(); ++i)
                         EXPECT_TRUE(found.insert(block.id(i)).second);
