@@ -25,7 +25,6 @@
 #include "octree/traversal/frontier.h"
 #include "octree/traversal/link_resolver.h"
 #include "octree/traversal/node_kernels-inl.h"
-#include "octree/traversal/tree_view.h"
 #include "octree/traversal/triangle_filter-inl.h"
 
 HWY_BEFORE_NAMESPACE();
