@@ -12,8 +12,10 @@ bool SpillExtent::take(std::uint64_t offset, std::uint64_t count, std::uint64_t 
 }
 
 bool SpillExtent::take(const TriangleRuns::Extent& run, std::size_t record_bytes) {
-  return run.marks.size() == storage::SpillRuns::mark_count(run.size) &&
-         take(run.offset, run.size, record_bytes);
+  if (run.marks.size() != storage::SpillRuns::mark_count(run.size)) return false;
+  if (run.group_ends.empty()) return take(run.offset, run.size, record_bytes);
+  return run.group_ends.size() == run.marks.size() && std::ranges::is_sorted(run.group_ends) &&
+         take(run.offset, run.group_ends.back(), 1);
 }
 
 bool SpillExtent::take(const std::vector<storage::SpillRuns::Extent>& runs,

@@ -74,7 +74,7 @@ void fields(Record& record, Value& frame) {
 
 template <class Record, IsA<TriangleRuns::Extent> Value>
 void fields(Record& record, Value& extent) {
-  record(extent.offset, extent.size, extent.marks);
+  record(extent.offset, extent.size, extent.marks, extent.group_ends);
 }
 
 template <class Record, IsA<SpooledAttributes> Value>

@@ -132,7 +132,7 @@ class MapStep {
     auto file = storage::NewResultFile::create(path_, false, seams_.calls);
     if (!file) return file.error();
     storage::SpillFile data(file->file());
-    TriangleRuns runs(plan_.plan.mesh.frame.float64, 0, data);
+    TriangleRuns runs(plan_.plan.mesh.frame.float64, 0, data, storage::Packing::kGroups);
     PhaseCount count(progress_, BuildPhase::kOrdering, spool_.batch_count());
     if (const auto taken = runs.take(spool_, [&count] { return count.add(); }); !taken)
       return taken.error();

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <utility>
 
+#include "storage/spill/record_packing.h"
+
 namespace planetree::storage {
 
 Result<SpillRuns::Extent> SpillRuns::add(std::vector<std::byte> records) {
@@ -21,14 +23,35 @@ Result<SpillRuns::Extent> SpillRuns::add(std::vector<std::byte> records) {
   if (held) {
     run.held = std::move(records);
   } else {
-    const auto offset = file_.append(records);
-    if (!offset) return offset.error();
-    run.extent.offset = *offset;
-    run.extent.marks = marks_of(records);
+    if (const auto written = write(std::move(records), run.extent); !written)
+      return written.error();
   }
   const std::lock_guard lock(adding_);
   size_ += run.extent.size;
   return runs_.emplace_back(std::move(run)).extent;
+}
+
+// The packed groups take the place of the records, because they are no longer.
+void SpillRuns::pack(std::vector<std::byte>& records, Extent& extent) const {
+  const std::size_t step = kMarkRecords * record_bytes_;
+  std::size_t end = 0;
+  for (std::size_t at = 0; at < records.size(); at += step) {
+    const auto group = std::span(records).subspan(at, std::min(step, records.size() - at));
+    const std::vector<std::byte> packed = pack_records(group, record_bytes_);
+    std::memcpy(records.data() + end, packed.data(), packed.size());
+    end += packed.size();
+    extent.group_ends.push_back(end);
+  }
+  records.resize(end);
+}
+
+Result<void> SpillRuns::write(std::vector<std::byte> records, Extent& extent) {
+  extent.marks = marks_of(records);
+  if (packing_ == Packing::kGroups) pack(records, extent);
+  const auto offset = file_.append(records);
+  if (!offset) return offset.error();
+  extent.offset = *offset;
+  return {};
 }
 
 void SpillRuns::add_extent(Extent extent) {
@@ -56,8 +79,39 @@ SpillRuns::Cut SpillRuns::end() const {
 
 Result<void> SpillRuns::get(const Run& run, std::uint64_t from, std::span<std::byte> out) const {
   const std::uint64_t offset = from * record_bytes_;
+  if (!run.extent.group_ends.empty()) return get_packed(run.extent, from, out);
   if (run.held.empty()) return file_.read(run.extent.offset + offset, out);
   if (!out.empty()) std::memcpy(out.data(), run.held.data() + offset, out.size());
+  return {};
+}
+
+// Reads the groups that have the records by one call, then unpacks one after the other. `out` may
+// end within a record.
+Result<void> SpillRuns::get_packed(const Extent& extent, std::uint64_t from,
+                                   std::span<std::byte> out) const {
+  if (out.empty()) return {};
+  const auto start_of = [&](std::uint64_t group) {
+    return group == 0 ? 0 : extent.group_ends[static_cast<std::size_t>(group - 1)];
+  };
+  const std::uint64_t records = (out.size() - 1) / record_bytes_ + 1;
+  const std::uint64_t first = from / kMarkRecords, last = (from + records - 1) / kMarkRecords;
+  std::vector<std::byte> packed(static_cast<std::size_t>(start_of(last + 1) - start_of(first)));
+  if (const auto read = file_.read(extent.offset + start_of(first), packed); !read) return read;
+  std::vector<std::byte> group;
+  auto skipped = static_cast<std::size_t>((from - first * kMarkRecords) * record_bytes_);
+  for (std::uint64_t at = first; at <= last; ++at) {
+    const std::uint64_t in_group = std::min(kMarkRecords, extent.size - at * kMarkRecords);
+    group.resize(static_cast<std::size_t>(in_group) * record_bytes_);
+    const auto bytes =
+        std::span(packed).subspan(static_cast<std::size_t>(start_of(at) - start_of(first)),
+                                  static_cast<std::size_t>(start_of(at + 1) - start_of(at)));
+    if (const auto unpacked = unpack_records(bytes, record_bytes_, group); !unpacked)
+      return unpacked;
+    const std::size_t some = std::min(group.size() - skipped, out.size());
+    std::memcpy(out.data(), group.data() + skipped, some);
+    out = out.subspan(some);
+    skipped = 0;
+  }
   return {};
 }
 

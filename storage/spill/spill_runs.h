@@ -20,6 +20,12 @@ struct SpillKey {
   auto operator<=>(const SpillKey&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
+/// How records are kept in a file.
+enum class Packing : bool {
+  kNone,   ///< as they are
+  kGroups  ///< compressed, which takes time when they are added and when they are read
+};
+
 /// Sorted runs of records of one size, in memory up to a limit, then in a SpillFile. The runs are
 /// not merged. read() returns the records between two keys from every run, and the caller sorts
 /// them. So records are written once and read once, whatever the number of runs.
@@ -36,6 +42,9 @@ class SpillRuns {
     /// First half of the key of every kMarkRecords-th record. With these, one read usually finds
     /// any key.
     std::vector<std::uint64_t> marks;
+    /// Ends of the groups of kMarkRecords records, in bytes from `offset` on; empty: the records
+    /// are not packed.
+    std::vector<std::uint64_t> group_ends;
   };
   /// To read this many records takes little longer than to read one.
   static constexpr std::uint64_t kMarkRecords = 256;
@@ -46,14 +55,16 @@ class SpillRuns {
   /// record_bytes  size of a record, at least 16.
   /// held_bytes    maximum total size of the runs kept in memory.
   /// file          receives the other runs; must outlive this object.
-  SpillRuns(std::size_t record_bytes, std::uint64_t held_bytes, SpillFile& file)
-      : record_bytes_(record_bytes), held_bytes_(held_bytes), file_(file) {}
+  /// packing       of the runs that add() writes to the file.
+  SpillRuns(std::size_t record_bytes, std::uint64_t held_bytes, SpillFile& file,
+            Packing packing = Packing::kNone)
+      : record_bytes_(record_bytes), held_bytes_(held_bytes), file_(file), packing_(packing) {}
 
   /// Adds a run of whole records, ascending by key. Returns its position in the file; of a run kept
   /// in memory only the size is set.
   /// errors  those of SpillFile::append().
   Result<Extent> add(std::vector<std::byte> records);
-  /// Adds a run that is in the file already.
+  /// Adds a run that is in the file already, packed or not.
   void add_extent(Extent extent);
   /// Positions of all runs. None of them may be in memory.
   std::vector<Extent> extents() const;
@@ -71,7 +82,7 @@ class SpillRuns {
   static std::uint64_t count(const Cut& from, const Cut& to);
 
   /// Reads the records from `from` up to, but not including, `to`, run after run.
-  /// errors  those of SpillFile::read().
+  /// errors  those of SpillFile::read(); kDamaged.
   Result<std::vector<std::byte>> read(const Cut& from, const Cut& to) const;
 
  private:
@@ -80,7 +91,10 @@ class SpillRuns {
     std::vector<std::byte> held;  // the records if they are in memory, otherwise empty
   };
 
+  Result<void> write(std::vector<std::byte> records, Extent& extent);
+  void pack(std::vector<std::byte>& records, Extent& extent) const;
   Result<void> get(const Run& run, std::uint64_t from, std::span<std::byte> out) const;
+  Result<void> get_packed(const Extent& extent, std::uint64_t from, std::span<std::byte> out) const;
   std::vector<std::uint64_t> marks_of(std::span<const std::byte> records) const;
   Result<std::uint64_t> find(const Run& run, const SpillKey& key) const;
   Result<std::uint64_t> find_within(const Run& run, std::uint64_t first, std::uint64_t last,
@@ -89,6 +103,7 @@ class SpillRuns {
   const std::size_t record_bytes_;
   std::uint64_t held_bytes_;
   SpillFile& file_;
+  const Packing packing_;
   std::mutex adding_;
   std::uint64_t size_ = 0;
   std::vector<Run> runs_;

@@ -18,8 +18,10 @@ class TriangleRuns {
 
   /// held_bytes  maximum of triangles in memory.
   /// file        receives the others; must outlive this.
-  TriangleRuns(bool float64, std::uint64_t held_bytes, storage::SpillFile& file)
-      : float64_(float64), runs_(Triangles::record_bytes(float64), held_bytes, file) {}
+  /// packing     of the triangles in the file.
+  TriangleRuns(bool float64, std::uint64_t held_bytes, storage::SpillFile& file,
+               storage::Packing packing = storage::Packing::kNone)
+      : float64_(float64), runs_(Triangles::record_bytes(float64), held_bytes, file, packing) {}
 
   /// Takes every batch of a spool. Uses the calling thread's TBB arena.
   /// done  called after each batch, on any thread. Its error ends the taking and is returned.

@@ -159,7 +159,12 @@ std::vector<std::byte> run_of(std::vector<Record> records) {
   return bytes;
 }
 
-class SpillRunsTest : public testing::TestWithParam<std::uint64_t> {
+struct Keeping {
+  std::uint64_t held_bytes;
+  Packing packing;
+};
+
+class SpillRunsTest : public testing::TestWithParam<Keeping> {
  protected:
   void SetUp() override {
     std::mt19937_64 random(7);
@@ -180,7 +185,7 @@ class SpillRunsTest : public testing::TestWithParam<std::uint64_t> {
 
   const TemporaryDirectory directory_;
   SpillFile file_{directory_ / ".", 0};
-  SpillRuns runs_{sizeof(Record), GetParam(), file_};
+  SpillRuns runs_{sizeof(Record), GetParam().held_bytes, file_, GetParam().packing};
   std::vector<Record> all_;
 };
 
@@ -208,7 +213,11 @@ TEST_P(SpillRunsTest, FindEveryRecordBetweenTwoKeys) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Held, SpillRunsTest, testing::Values(0, 10000, 1 << 20));
+INSTANTIATE_TEST_SUITE_P(Held, SpillRunsTest,
+                         testing::Values(Keeping{0, Packing::kNone}, Keeping{10000, Packing::kNone},
+                                         Keeping{1 << 20, Packing::kNone},
+                                         Keeping{0, Packing::kGroups},
+                                         Keeping{10000, Packing::kGroups}));
 
 class CountedReads final : public FileCalls {
  public:
@@ -219,11 +228,13 @@ class CountedReads final : public FileCalls {
   int count = 0;
 };
 
-TEST(SpillRuns, FindAKeyByOneReadOfEachRun) {
+class PackedRunsTest : public testing::TestWithParam<Packing> {};
+
+TEST_P(PackedRunsTest, FindAKeyByOneReadOfEachRun) {
   const TemporaryDirectory directory;
   CountedReads calls;
   SpillFile file(directory / ".", 0, calls);
-  SpillRuns runs(sizeof(Record), 0, file);
+  SpillRuns runs(sizeof(Record), 0, file, GetParam());
   std::vector<Record> records(100000);
   for (std::uint64_t i = 0; i < records.size(); ++i) records[i].key = {i, i};
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(runs.add(run_of(records)));
@@ -237,6 +248,25 @@ TEST(SpillRuns, FindAKeyByOneReadOfEachRun) {
       EXPECT_EQ(*cut, SpillRuns::Cut(3, std::min<std::uint64_t>(at, records.size())));
       EXPECT_LE(calls.count, 3);
     }
+}
+
+INSTANTIATE_TEST_SUITE_P(Packing, PackedRunsTest,
+                         testing::Values(Packing::kNone, Packing::kGroups));
+
+// Every stretch of a run, whether it begins and ends within a group or not.
+TEST(PackedRuns, GiveBackTheirRecords) {
+  const TemporaryDirectory directory;
+  SpillFile file(directory / ".", 0), other(directory / ".", 0);
+  SpillRuns runs(sizeof(Record), 0, file, Packing::kGroups), plain(sizeof(Record), 0, other);
+  std::vector<Record> records(3 * SpillRuns::kMarkRecords + 17);
+  std::mt19937_64 random(3);
+  for (Record& record : records) record = {{random() % 1000, random()}, 7, 0};
+  ASSERT_TRUE(runs.add(run_of(records)));
+  ASSERT_TRUE(plain.add(run_of(records)));
+  EXPECT_LT(file.size_bytes(), other.size_bytes());
+  for (std::uint64_t from = 0; from < records.size(); from += 61)
+    for (std::uint64_t to = from; to <= records.size(); to += 83)
+      ASSERT_EQ(*runs.read({from}, {to}), *plain.read({from}, {to})) << from << " to " << to;
 }
 
 TEST(SpillRuns, AreRestoredFromTheirExtents) {
