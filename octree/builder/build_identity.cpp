@@ -18,7 +18,7 @@ namespace planetree::octree {
 namespace {
 
 /// To be raised with every change of the records or of what trees consist of.
-constexpr int kWorkVersion = 11;
+constexpr int kWorkVersion = 12;
 
 constexpr std::uint64_t kSampleBlocks = 64;
 constexpr std::uint64_t kBlockBytes = 4096;

@@ -24,7 +24,7 @@ std::string file_of(const ShardRecord& record) {
 
 std::string plain_report(const ShardRecord& record, const ShardPlanReport& plan) {
   const std::uint64_t shards = plan.shards;
-  return fmt::format("{}: {} triangles in {} shard{}{}; map writes {} a shard, reduce about {}; {}",
+  return fmt::format("{}: {} triangles in {} shard{}{}; map writes up to {} a shard, reduce about {}; {}",
                      record.job.string(), grouped_count(plan.triangles), shards,
                      shards == 1 ? "" : "s", plan.was_done ? ", planned before" : "",
                      short_bytes(plan.sorted_bytes / shards),
