@@ -24,11 +24,11 @@ std::string file_of(const ShardRecord& record) {
 
 std::string plain_report(const ShardRecord& record, const ShardPlanReport& plan) {
   const std::uint64_t shards = plan.shards;
-  return fmt::format("{}: {} triangles in {} shard{}{}; map writes up to {} a shard, reduce about {}; {}",
-                     record.job.string(), grouped_count(plan.triangles), shards,
-                     shards == 1 ? "" : "s", plan.was_done ? ", planned before" : "",
-                     short_bytes(plan.sorted_bytes / shards),
-                     short_bytes(plan.built_bytes / shards), time_and_memory(record));
+  return fmt::format(
+      "{}: {} triangles in {} shard{}{}; map writes up to {} a shard, reduce about {}; {}",
+      record.job.string(), grouped_count(plan.triangles), shards, shards == 1 ? "" : "s",
+      plan.was_done ? ", planned before" : "", short_bytes(plan.sorted_bytes / shards),
+      short_bytes(plan.built_bytes / shards), time_and_memory(record));
 }
 
 std::string plain_report(const ShardRecord& record, const ShardReport& done) {
