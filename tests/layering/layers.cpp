@@ -26,7 +26,7 @@ const std::vector<Layer>& layers() {
        {"storage/http", "storage/file", "storage/system"},
        {},
        {"fcntl.h", "nlohmann"}},
-      {"storage/spill", {"storage/file", "storage/system"}, {}, with_system({})},
+      {"storage/spill", {"storage/file", "storage/system"}, {}, with_system({"lz4"})},
       {"cache/policy", {}, {}, {}},
       {"cache", {"cache/policy"}, {}, {"sys/mman.h", "unistd.h"}},
       {"octree/geometry", {}, {}, {"Eigen", "boost/multiprecision", "hwy"}},

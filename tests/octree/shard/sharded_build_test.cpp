@@ -133,6 +133,18 @@ TEST_F(ShardedBuild, KeepsAttributes) {
   expect_same({1, 4});
 }
 
+TEST_F(ShardedBuild, NeedsNoMeshAfterTheMaps) {
+  write(open_sphere());
+  const storage::Bytes expected = whole();
+  ASSERT_TRUE(plan(2));
+  ASSERT_TRUE(map(0) && map(1));
+  std::filesystem::remove(mesh_);
+  ASSERT_TRUE(reduce(0) && reduce(1));
+  const auto merged = merge();
+  ASSERT_TRUE(merged) << merged.error().text;
+  EXPECT_EQ(built(), expected);
+}
+
 TEST_F(ShardedBuild, SortsEveryTriangleInOneShard) {
   write(open_sphere());
   ASSERT_TRUE(plan(4));
@@ -140,7 +152,8 @@ TEST_F(ShardedBuild, SortsEveryTriangleInOneShard) {
   for (std::uint32_t i = 0; i < 4; ++i) {
     const auto done = map(i);
     ASSERT_TRUE(done);
-    EXPECT_EQ(done->bytes, done->triangles * Triangles::record_bytes(false));
+    // Triangles nearby are alike, and packed.
+    EXPECT_LT(done->bytes, done->triangles * 45);
     sorted += done->triangles;
   }
   for (std::uint32_t i = 0; i < 4; ++i) {
