@@ -39,7 +39,7 @@ struct ShardPlanReport {
   std::uint64_t skipped = 0;       ///< triangle indices of skipped records
   std::uint64_t input_bytes = 0;   ///< length of the mesh files
   std::uint64_t plan_bytes = 0;    ///< attributes that the plan keeps
-  std::uint64_t sorted_bytes = 0;  ///< length of all results of map_shard()
+  std::uint64_t sorted_bytes = 0;  ///< maximum length of all results of map_shard()
   std::uint64_t built_bytes = 0;   ///< estimate of the length of all results of reduce_shard()
   bool was_done = false;           ///< the job was planned like this already
 };
