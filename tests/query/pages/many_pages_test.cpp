@@ -11,6 +11,7 @@
 #include "storage/file/page_file.h"
 #include "tests/query/answer_bits.h"
 #include "tests/query/eventually.h"
+#include "tests/query/pages/same_answers.h"
 #include "tests/query/pages/spread_file.h"
 #include "tests/query/sample_model.h"
 #include "tests/storage/system/temporary_directory.h"
@@ -89,40 +90,15 @@ void expect_same_points(const Model& few, const Model& many, std::size_t count) 
   EXPECT_LT(inside, count - count / 10);
 }
 
-void expect_same_in_each_way(const Model& few, const Model& many, std::size_t count) {
+void expect_same_answers(const Model& few, const Model& many, std::size_t count) {
   Probe of_few = make_probe(few), of_many = make_probe(many);
   const std::vector<Vec3> queries = near_and_far(count);
-  for (std::size_t i = 0; i + 1 < queries.size(); ++i) {
-    const Vec3 &from = queries[i], &to = queries[i + 1];
-    const Ray ray{from, {to.x - from.x, to.y - from.y, to.z - from.z}};
-    ASSERT_EQ(bits_of(of_many.first_hit(ray)), bits_of(of_few.first_hit(ray)));
-    const Sweep sweep{from, to, 0.05};
-    ASSERT_EQ(bits_of(of_many.first_contact(sweep)), bits_of(of_few.first_contact(sweep)));
-    std::vector<ClosestPoint> expected(20), found(20);
-    const Found contacts = of_few.contacts(from, 0.3, expected);
-    ASSERT_EQ(of_many.contacts(from, 0.3, found).count, contacts.count);
-    for (std::size_t k = 0; k < contacts.count; ++k)
-      ASSERT_EQ(bits_of(found[k]), bits_of(expected[k]));
-    const QueryOptions tolerant{.max_error = 0.02};
-    ASSERT_EQ(bits_of(of_many.closest_point(from, tolerant)),
-              bits_of(of_few.closest_point(from, tolerant)));
-  }
+  expect_same_in_each_way(of_few, of_many, queries);
   std::vector<ClosestPoint> expected(queries.size()), found(queries.size());
   of_few.closest_points(queries, expected);
   of_many.closest_points(queries, found);
   for (std::size_t i = 0; i < queries.size(); ++i)
     ASSERT_EQ(bits_of(found[i]), bits_of(expected[i])) << i;
-}
-
-void expect_same_triangles(const Model& few, const Model& many, std::uint64_t count) {
-  for (std::uint64_t index = 0; index < count; index += 97) {
-    const auto expected = few.triangle(index), found = many.triangle(index);
-    ASSERT_TRUE(expected && found);
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      const Vec3 &a = found->corners[corner], &b = expected->corners[corner];
-      ASSERT_TRUE(a.x == b.x && a.y == b.y && a.z == b.z);
-    }
-  }
 }
 
 TEST(ManyPages, AnswerAsFew) {
@@ -134,8 +110,8 @@ TEST(ManyPages, AnswerAsFew) {
   ASSERT_GT(header.model.mask_page_count, kShortMaskPages + 1);
   const Model few = both.few(), many = both.many();
   expect_same_points(few, many, 20'000);
-  expect_same_in_each_way(few, many, 1000);
-  expect_same_triangles(few, many, soup.size());
+  expect_same_answers(few, many, 1000);
+  expect_same_triangles(few, many, soup.size(), 97);
   // Those of the mask too: without it, sides would be found by rays. The pages added are damaged.
   EXPECT_EQ(many.stats().pages_read, header.page_count - kSlotPages - kShortMaskPages);
   EXPECT_EQ(many.stats().quarantined_pages, 0u);
@@ -150,8 +126,8 @@ TEST(ManyPages, AnswerAsFewOnAnOpenSurface) {
   ASSERT_GT(header.model.cap_page_count, 0u);
   const Model few = both.few(), many = both.many();
   expect_same_points(few, many, 5000);
-  expect_same_in_each_way(few, many, 500);
-  expect_same_triangles(few, many, soup.size() / 2);
+  expect_same_answers(few, many, 500);
+  expect_same_triangles(few, many, soup.size() / 2, 97);
 }
 
 TEST(ManyPages, ComeWhileQueriesDoNotWait) {

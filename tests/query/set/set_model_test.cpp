@@ -11,6 +11,7 @@
 #include "storage/set/set_description.h"
 #include "tests/query/answer_bits.h"
 #include "tests/query/eventually.h"
+#include "tests/query/pages/same_answers.h"
 #include "tests/query/sample_model.h"
 #include "tests/storage/set/sample_set.h"
 #include "tests/storage/system/temporary_directory.h"
@@ -107,30 +108,8 @@ TEST(SetModels, AnswerAsTheFileInEachWay) {
   FileAndSet both(sphere_without(500), keeping);
   const Model file = both.open(both.file()), set = both.open(both.set());
   Probe of_file = make_probe(file), of_set = make_probe(set);
-  const std::vector<Vec3> queries = near_and_far(2000);
-  for (std::size_t i = 0; i + 1 < queries.size(); ++i) {
-    const Vec3 &from = queries[i], &to = queries[i + 1];
-    const Ray ray{from, {to.x - from.x, to.y - from.y, to.z - from.z}};
-    ASSERT_EQ(bits_of(of_set.first_hit(ray)), bits_of(of_file.first_hit(ray)));
-    const Sweep sweep{from, to, 0.05};
-    ASSERT_EQ(bits_of(of_set.first_contact(sweep)), bits_of(of_file.first_contact(sweep)));
-    std::vector<ClosestPoint> expected(20), found(20);
-    const Found count = of_file.contacts(from, 0.3, expected);
-    ASSERT_EQ(of_set.contacts(from, 0.3, found).count, count.count);
-    for (std::size_t k = 0; k < count.count; ++k)
-      ASSERT_EQ(bits_of(found[k]), bits_of(expected[k]));
-    const QueryOptions tolerant{.max_error = 0.02};
-    ASSERT_EQ(bits_of(of_set.closest_point(from, tolerant)),
-              bits_of(of_file.closest_point(from, tolerant)));
-  }
-  for (std::uint64_t index = 0; index < 3000; index += 7) {
-    const auto expected = file.triangle(index), found = set.triangle(index);
-    ASSERT_TRUE(expected && found);
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      const Vec3 &a = found->corners[corner], &b = expected->corners[corner];
-      ASSERT_TRUE(a.x == b.x && a.y == b.y && a.z == b.z);
-    }
-  }
+  expect_same_in_each_way(of_file, of_set, near_and_far(2000));
+  expect_same_triangles(file, set, 3000, 7);
 }
 
 TEST(SetModels, AnswerBatchesByThreads) {
