@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "planetree/model.h"
 #include "query/file/page_decoding.h"
@@ -64,16 +63,8 @@ Soup without_each(const Soup& whole, std::size_t step) {
   return soup;
 }
 
-// Points everywhere, and as many near the sphere.
 std::vector<Vec3> near_and_far(std::size_t count) {
-  std::vector<Vec3> queries = random_queries(count, -1.5, 1.5);
-  for (std::size_t i = 0; i < count; i += 2) {
-    Vec3& q = queries[i];
-    const double scale = (0.9995 + 0.001 * (static_cast<double>(i) / static_cast<double>(count))) /
-                         std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z);
-    q = {q.x * scale, q.y * scale, q.z * scale};
-  }
-  return queries;
+  return points_around_sphere(count, 0.9995, 0.001);
 }
 
 void expect_same_points(const Model& few, const Model& many, std::size_t count) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -11,9 +12,23 @@
 #include "planetree/model.h"
 #include "planetree/probe.h"
 #include "tests/query/answer_bits.h"
+#include "tests/query/sample_model.h"
 
-/// Comparisons of two files of one model, whose answers must have the same bits.
+/// Comparisons of two files of one model, whose answers must have the same bits, and points to ask.
 namespace planetree::query {
+
+/// Points everywhere around the unit sphere. Every second one is at a distance from its centre
+/// between `least` and `least` + `range`.
+inline std::vector<Vec3> points_around_sphere(std::size_t count, double least, double range) {
+  std::vector<Vec3> points = random_queries(count, -1.5, 1.5);
+  for (std::size_t i = 0; i < count; i += 2) {
+    Vec3& q = points[i];
+    const double scale = (least + range * (static_cast<double>(i) / static_cast<double>(count))) /
+                         std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z);
+    q = {q.x * scale, q.y * scale, q.z * scale};
+  }
+  return points;
+}
 
 /// Compares rays and moving balls from each point to the next, contacts, and tolerant distances.
 inline void expect_same_in_each_way(Probe& expected_of, Probe& found_of,

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "planetree/scene.h"
@@ -62,16 +61,8 @@ Soup sphere_without(unsigned step) {
   return soup;
 }
 
-// Points everywhere, and as many near the surface.
 std::vector<Vec3> near_and_far(std::size_t count) {
-  std::vector<Vec3> queries = random_queries(count, -1.5, 1.5);
-  for (std::size_t i = 0; i < count; i += 2) {
-    Vec3& q = queries[i];
-    const double scale = (0.98 + 0.04 * (static_cast<double>(i) / static_cast<double>(count))) /
-                         std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z);
-    q = {q.x * scale, q.y * scale, q.z * scale};
-  }
-  return queries;
+  return points_around_sphere(count, 0.98, 0.04);
 }
 
 void expect_same(FileAndSet& both, std::size_t count) {
