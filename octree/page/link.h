@@ -26,8 +26,8 @@ enum class LinkTarget : std::uint8_t {
 
 /// Layout of a link, the 32-bit address of a child: [leaf 1][page 31 - s][slot s], where s is
 /// log2(page bytes / 64), or [leaf 1][page 31 - n][number n], where n is log2(page bytes / 256).
-/// Slots number the nodes of most trees, and numbers those of trees with too many pages. Lists of
-/// the mask and attribute pages have numbers.
+/// Links of nodes have slots, or numbers if the trees have too many pages for slots. Lists of the
+/// mask and attribute pages have numbers.
 class LinkFormat {
  public:
   constexpr LinkFormat(std::uint32_t page_bytes, LinkTarget target)
